@@ -1,0 +1,28 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; A face is a package as the user loads it: a version and a list of public functions. Each public function becomes a Lisp
+;;; function that hands its arguments to the dispatcher, so kill(all) leaves it and a call is what loads the parts it needs.
+
+(in-package :maxima)
+
+(defvar *core-faces* '() "Faces loaded: (name . version).")
+
+(defun core-load-registers ()
+  (dolist (room '("forms" "linmodel" "circuits" "analysis" "numerics"))
+    (when (core-existing-file (format nil "~asrc/~a/register.lisp" *core-root* room))
+      (core-require (concatenate 'string room "/register")))))
+
+(defun core-install (name)
+  "Makes the public function NAME callable."
+  (let ((symbol (core-symbol name)))
+    (setf (symbol-function symbol)
+          (lambda (&rest arguments)
+            (core-require "archive/dispatch")
+            (funcall 'archive-call name arguments)))
+    symbol))
+
+(defun $core_face (face version &rest names)
+  "States a package: its name, its version, and the names of its public functions."
+  (core-load-registers)
+  (dolist (name names) (core-install name))
+  (setq *core-faces* (acons face version (remove face *core-faces* :key #'car :test #'string=)))
+  '$done)

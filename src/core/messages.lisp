@@ -1,0 +1,97 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What is said to the person: errors, warnings, progress, and the notes that go into a result (how it was checked, what was
+;;; left out). Every message begins with the public function that runs; the archive tells the line of a key.
+
+(in-package :maxima)
+
+(defvar *core-function* nil "Name of the public function that runs, a string.")
+(defvar *core-place* nil "Function of section and key: their place, such as \"pendulum.txt, line 14\", or nil.")
+(defvar *core-checks* nil "How the result was checked, newest first.")
+(defvar *core-left-out* nil "What the result leaves out, newest first.")
+(defvar *core-started* nil "Internal real time at which the call began.")
+(defvar *core-progress* t "Whether progress lines are wanted.")
+(defvar *core-warnings* nil "Warnings already given in this call.")
+
+(defun core-words (items)
+  "ITEMS, strings and Maxima expressions, as one string on one line."
+  (let (($display2d nil) ($stringdisp nil) ($lispdisp nil) ($linel 100000))
+    (apply #'concatenate 'string
+           (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string))) items))))
+
+(defun core-signal (text)
+  (merror "~A" (if *core-function* (concatenate 'string *core-function* ": " text) text)))
+
+(defun core-error (control &rest arguments)
+  "A Maxima error: \"FUNCTION: text\"."
+  (core-signal (apply #'format nil control arguments)))
+
+(defun core-placed (section key)
+  "\"body 2 (pendulum.txt, line 14)\", as far as it is known."
+  (let ((place (and *core-place* (funcall *core-place* section key))))
+    (if place (format nil "~a (~a)" section place) section)))
+
+(defun core-fault (section key control &rest arguments)
+  "An error of the description, with its place."
+  (core-signal (format nil "~a: ~?" (core-placed section key) control arguments)))
+
+(defun core-say (text)
+  "One line on the terminal, on a line of its own."
+  (fresh-line)
+  (write-string text)
+  (terpri)
+  (finish-output))
+
+(defun core-note (control &rest arguments)
+  (core-say (format nil "~@[~a: ~]~?" *core-function* control arguments)))
+
+(defun core-warn (control &rest arguments)
+  "One line, once in a call."
+  (let ((text (apply #'format nil control arguments)))
+    (unless (member text *core-warnings* :test #'string=)
+      (push text *core-warnings*)
+      (core-note "warning: ~a" text))))
+
+(defun core-progress (control &rest arguments)
+  "One line once two seconds have gone by since the last one."
+  (let ((now (get-internal-real-time)))
+    (when (and *core-progress* *core-started*
+               (> (- now *core-started*) (* 2 internal-time-units-per-second)))
+      (setq *core-started* now)
+      (core-note "~?" control arguments))))
+
+(defun $core_error (&rest items) (core-signal (core-words items)))
+
+(defun core-section-name (section) (if (stringp section) section (core-words (list section))))
+
+(defun $core_fault (section key &rest items)
+  (core-fault (core-section-name section) key "~a" (core-words items)))
+
+(defun $core_warn (&rest items) (core-warn "~a" (core-words items)) '$done)
+
+(defun $core_progress (&rest items) (core-progress "~a" (core-words items)) '$done)
+
+(defun $core_checked (&rest items) (pushnew (core-words items) *core-checks* :test #'string=) '$done)
+
+(defun $core_left_out (&rest items) (pushnew (core-words items) *core-left-out* :test #'string=) '$done)
+
+(defun $core_path (name)
+  "The path of a file of the repository."
+  (concatenate 'string *core-root* name))
+
+(defun core-key-equal (key other)
+  (if (stringp key) (and (stringp other) (string= key other)) (eq key other)))
+
+(defun $core_get (record key &optional (default nil given))
+  "The value of KEY in RECORD, a list of equations."
+  (let ((equation (find-if (lambda (e) (and (consp e) (eq (caar e) 'mequal) (core-key-equal key (cadr e)))) (cdr record))))
+    (cond (equation (caddr equation))
+          (given default)
+          (t (core-error "~a is missing" (core-section-name key))))))
+
+(defun core-attempt (function)
+  "A list of the value of FUNCTION, or nil when it ends in an error; nothing is printed and `error' keeps its value."
+  (let (($errormsg nil) ($error $error)) (errcatch (funcall function))))
+
+(defmspec $core_attempt (form)
+  ;; core_attempt(e): [value of e], or [] when it ends in an error or would ask a question.
+  (cons '(mlist simp) (core-attempt (lambda () (meval (cadr form))))))
