@@ -1,0 +1,161 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; Linear equations with symbolic coefficients: Cramer's rule by memoised minors for M x = b
+;;; (numerators over one determinant), elimination with exact zero tests for rank and for systems
+;;; that are singular or not square.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/minors" "algebra/zero"))
+
+(defun $algebra_inverse_times (m b)
+  "x with M x = b, b a list (x a list) or a matrix of columns (x a matrix)."
+  (algebra-check-square m "the matrix of linear equations")
+  (cond (($matrixp b) (algebra-solve-columns m b))
+        (($listp b)
+         (cons '(mlist simp)
+               (mapcar #'cadr (cdr (algebra-solve-columns m (algebra-column b))))))
+        (t (core-error "a list or a matrix was expected on the right, found ~A"
+                       (algebra-short-text b)))))
+
+(defun algebra-column (b)
+  (cons '($matrix simp) (loop for x in (cdr b) collect (list '(mlist simp) x))))
+
+(defun algebra-solve-columns (m b)
+  (unless (= (length m) (length b))
+    (core-error "~A equations but ~A right sides" (length (cdr m)) (length (cdr b))))
+  (with-algebra-ring
+    (let* ((rows (append (algebra-scan-rows m) (algebra-scan-rows b)))
+           (n (length (cdr m)))
+           (quotients (progn (algebra-order-kernels)
+                             (mapcar (lambda (row) (mapcar #'algebra-evaluate row)) rows))))
+      (algebra-cramer (subseq quotients 0 n) (nthcdr n quotients)))))
+
+(defun algebra-cramer (rows right)
+  (multiple-value-bind (matrix denominators) (algebra-row-denominators rows)
+    (let* ((cofactors (algebra-cofactors (algebra-square-array matrix)))
+           (determinant (algebra-expand-first-row matrix cofactors))
+           (cleared (loop for row in right
+                          for d in denominators
+                          collect (loop for b in row collect (rattimes b (cons d 1) t)))))
+      (when (algebra-vanishes-p determinant)
+        (core-error "the matrix of linear equations is singular"))
+      (cons '($matrix simp)
+            (loop for j below (length rows)
+                  collect (cons '(mlist simp)
+                                (algebra-cramer-row cofactors j cleared determinant)))))))
+
+(defun algebra-expand-first-row (matrix cofactors)
+  (let ((sum 0))
+    (loop for entry in (car matrix)
+          for j from 0
+          do (setq sum (pplus sum (ptimes entry (aref cofactors 0 j)))))
+    (algebra-reduce-angles sum)))
+
+(defun algebra-cramer-row (cofactors j right determinant)
+  (loop for column below (length (car right))
+        collect (algebra-general-reduced
+                 (ratquotient (algebra-sum
+                               (loop for row in right
+                                     for i from 0
+                                     collect (rattimes (cons (aref cofactors i j) 1)
+                                                       (nth column row) t)))
+                              (cons determinant 1)))))
+
+;;; Elimination on general expressions, for systems of any shape.
+
+(defun $algebra_rank (m)
+  (algebra-check-matrix m "the matrix of a rank")
+  (length (algebra-pivots (nth-value 0 (algebra-echelon (algebra-expression-rows m)
+                                                        (length (cdadr m)))))))
+
+(defun algebra-expression-rows (m)
+  (loop for row in (cdr m) collect (mapcar #'algebra-normal-form (cdr row))))
+
+(defun algebra-pivots (rows)
+  "Columns of the leading ones."
+  (loop for row in rows
+        for place = (position-if-not #'algebra-surely-zero-p row)
+        when place collect place))
+
+(defun algebra-surely-zero-p (e)
+  (or (eql e 0)
+      (case (algebra-zero-test e)
+        ((nil) nil)
+        ((t) t)
+        (t (core-error "it is not decided whether ~A vanishes" (algebra-short-text e))))))
+
+(defun algebra-echelon (rows columns)
+  "Reduced echelon form of ROWS, pivots in the first COLUMNS only."
+  (let ((done nil))
+    (dotimes (column columns)
+      (let ((candidates (remove-if (lambda (row) (algebra-surely-zero-p (nth column row))) rows)))
+        (when candidates
+          (let* ((pivot (algebra-least candidates
+                                       (lambda (row) (algebra-size (nth column row)))))
+                 (leading (algebra-scale-row pivot (nth column pivot))))
+            (flet ((clear (row) (algebra-clear-column row leading column)))
+              (setq rows (mapcar #'clear (remove pivot rows :test #'eq))
+                    done (append (mapcar #'clear done) (list leading))))))))
+    (append done rows)))
+
+(defun algebra-scale-row (row pivot)
+  (mapcar (lambda (e) (algebra-normal-form (div e pivot))) row))
+
+(defun algebra-clear-column (row leading column)
+  (let ((factor (nth column row)))
+    (if (eql factor 0)
+        row
+        (mapcar (lambda (e l) (algebra-normal-form (sub e (mul factor l)))) row leading))))
+
+(defun $algebra_solve_linear (equations unknowns)
+  "[x = .., ..] with free unknowns kept as themselves, or [] if the equations contradict."
+  (let* ((xs (cdr unknowns))
+         (rows (mapcar (lambda (equation) (algebra-equation-row equation xs)) (cdr equations)))
+         (echelon (algebra-echelon rows (length xs))))
+    (if (some (lambda (row) (algebra-contradiction-p row)) echelon)
+        '((mlist simp))
+        (cons '(mlist simp) (algebra-solutions echelon xs)))))
+
+(defun algebra-equation-row (equation xs)
+  "Coefficients of the unknowns, then the negative rest."
+  (let* ((e (if (mequalp equation) (sub (cadr equation) (caddr equation)) equation))
+         (rest (algebra-normal-form (algebra-substitute-zero e xs)))
+         (coefficients (loop for x in xs
+                             collect (algebra-normal-form (algebra-linear-coefficient e x xs)))))
+    (unless (eq t (algebra-zero-test
+                   (sub e (add rest (addn (mapcar #'mul coefficients xs) nil)))))
+      (core-error "~A is not linear in the unknowns" (algebra-short-text equation)))
+    (append coefficients (list (mul -1 rest)))))
+
+(defun algebra-substitute-zero (e xs)
+  (dolist (x xs e)
+    (setq e (maxima-substitute 0 x e))))
+
+(defun algebra-linear-coefficient (e x xs)
+  "e at x = 1 without e at x = 0, the other unknowns zero."
+  (let ((others (algebra-substitute-zero e (remove x xs :test #'alike1))))
+    (sub (maxima-substitute 1 x others) (maxima-substitute 0 x others))))
+
+(defun algebra-contradiction-p (row)
+  (and (every #'algebra-surely-zero-p (butlast row))
+       (not (algebra-surely-zero-p (car (last row))))))
+
+(defun algebra-solutions (rows xs)
+  (let ((pivots (loop for row in rows
+                      for place = (position-if-not #'algebra-surely-zero-p (butlast row))
+                      when place collect (cons place row))))
+    (loop for x in xs
+          for place from 0
+          for row = (cdr (assoc place pivots))
+          collect (list '(mequal simp) x (if row (algebra-solution row place xs) x)))))
+
+(defun algebra-solution (row place xs)
+  (algebra-normal-form
+   (sub (car (last row))
+        (addn (loop for coefficient in (butlast row)
+                    for x in xs
+                    for k from 0
+                    unless (= k place) collect (mul coefficient x))
+              nil))))

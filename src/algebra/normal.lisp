@@ -1,0 +1,105 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; algebra_normal(e): the canonical form of an expression, in general form, fit to be read:
+;;; sin(theta)^2*v^2 and not (1-cos(theta)^2)*v^2.  algebra_ratio(e): [numerator, denominator].
+;;; The quotient is reduced modulo the relations of the kernels (reduction.lisp); below the line
+;;; the form of each angle is chosen that cancels most.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/kernels" "algebra/reduction" "algebra/readable"))
+
+(defun $algebra_normal (e)
+  (algebra-map-bags #'algebra-normal-form e))
+
+(defun $algebra_ratio (e)
+  (with-algebra-ring
+    (let ((quotient (algebra-normal-quotient e)))
+      (list '(mlist simp)
+            (algebra-general (algebra-readable (car quotient)))
+            (algebra-general (algebra-readable (cdr quotient)))))))
+
+(defun algebra-map-bags (f e)
+  "F of an expression, of both sides of an equation, of the elements of lists and matrices."
+  (cond ((mbagp e) (cons (car e) (mapcar (lambda (part) (algebra-map-bags f part)) (cdr e))))
+        ((and (consp e) (member (caar e) '(mnotequal mgreaterp mlessp mgeqp mleqp)))
+         (cons (car e) (mapcar (lambda (part) (algebra-map-bags f part)) (cdr e))))
+        (t (funcall f e))))
+
+(defun algebra-normal-form (e)
+  (if (atom e)
+      e
+      (with-algebra-ring
+        (let ((quotient (algebra-normal-quotient e)))
+          (algebra-general-quotient (algebra-readable (car quotient))
+                                    (algebra-readable (cdr quotient)))))))
+
+(defun algebra-normal-quotient (e)
+  (let ((*algebra-exponential-form* (algebra-exponentials-p e)))
+    (let ((skeleton (algebra-scan e)))
+      (algebra-order-kernels)
+      (algebra-cancel (algebra-evaluate skeleton)))))
+
+(defun algebra-exponentials-p (e)
+  (and (not (atom e))
+       (or (and (mexptp e) (eq (cadr e) '$%e))
+           (some #'algebra-exponentials-p (cdr e)))))
+
+(defun algebra-cancel (quotient)
+  "Reduce numerator and denominator modulo the relations and cancel."
+  (destructuring-bind (n . d) quotient
+    (let ((above (algebra-reduce n))
+          (below (algebra-reduce-roots d)))
+      (cond ((algebra-vanishes-p d) (core-error "division by zero"))
+            ((pzerop (car above)) (cons 0 1))
+            (t (algebra-shortest-angles (algebra-ratio-of above below)))))))
+
+(defun algebra-reduce-roots (d)
+  (let ((quotient (cons d 1)))
+    (dolist (kernel (reverse (algebra-ring-kernels *algebra-ring*)) quotient)
+      (when (algebra-kernel-degree kernel)
+        (setq quotient (algebra-reduce-root quotient kernel))))))
+
+(defun algebra-ratio-of (above below)
+  (ratreduce (ptimes (car above) (cdr below)) (ptimes (car below) (cdr above))))
+
+(defun algebra-shortest-angles (quotient)
+  "For each angle below the line write it in sines or in cosines, whichever cancels more."
+  (dolist (unit (algebra-ring-units *algebra-ring*) quotient)
+    (when (and (algebra-pair-p unit)
+               (algebra-unit-occurs-p unit (cdr quotient)))
+      (setq quotient (algebra-shorter-angle quotient unit)))))
+
+(defun algebra-shorter-angle (quotient unit)
+  (destructuring-bind (n . d) quotient
+    (let* ((n-sine (algebra-eliminate-sine n unit))
+           (n-cosine (algebra-eliminate-cosine n unit))
+           (d-sine (algebra-eliminate-sine d unit))
+           (d-cosine (algebra-eliminate-cosine d unit))
+           (forms (list (ratreduce n-sine d-sine) (ratreduce n-cosine d-cosine)
+                        (ratreduce n-sine d-cosine) (ratreduce n-cosine d-sine)
+                        (ratreduce n-sine d) (ratreduce n-cosine d))))
+      (algebra-least forms (lambda (form) (+ (algebra-poly-size (car form))
+                                             (* 2 (algebra-poly-size (cdr form)))))))))
+
+(defun algebra-general-reduced (quotient)
+  "The readable expression of a quotient after reduction."
+  (let ((reduced (algebra-cancel quotient)))
+    (algebra-general-quotient (algebra-readable (car reduced)) (algebra-readable (cdr reduced)))))
+
+(defun algebra-expanded-reduced (quotient)
+  "The same expanded over its denominator."
+  (let ((reduced (algebra-cancel quotient)))
+    (algebra-expanded-quotient (algebra-readable (car reduced))
+                               (algebra-readable (cdr reduced)))))
+
+(defun algebra-expanded-quotient (n d)
+  "The terms of N, each over D and cancelled against it."
+  (let ((expanded (let (($ratexpand t)) (simplify (pdisrep n)))))
+    (cond ((eql d 1) expanded)
+          ((algebra-one-term-p d) ($expand (div expanded (algebra-general d)) 1 1))
+          (t (algebra-general-quotient n d)))))
+
+(defun algebra-one-term-p (p)
+  (or (atom p) (and (null (cdddr p)) (algebra-one-term-p (caddr p)))))

@@ -1,0 +1,158 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; From polynomials in kernels to expressions a person reads.  A coefficient of parameters and
+;;; velocities is a polynomial in sines and cosines over the rationals, known modulo s^2 + c^2 = 1.
+;;; Parity in each s and c splits it into classes that the relation does not mix; of each class the
+;;; shortest form is chosen among: in c^2, in s^2, homogeneous in c^2 and s^2 (which gives s^2*c^2).
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/size" "algebra/kernels" "algebra/reduction"))
+
+(defun algebra-readable (p)
+  "A polynomial equal to P modulo the relations, short in sines and cosines."
+  (let ((pairs (remove-if-not (lambda (unit)
+                                (and (algebra-pair-p unit) (algebra-unit-occurs-p unit p)))
+                              (algebra-ring-units *algebra-ring*))))
+    (if pairs (algebra-readable-leaves p pairs) p)))
+
+(defun algebra-readable-leaves (p pairs)
+  (cond ((atom p) p)
+        ((algebra-angle-variable-p (car p)) (algebra-readable-leaf p pairs))
+        (t (cons (car p)
+                 (loop for (exponent coefficient) on (cdr p) by #'cddr
+                       collect exponent
+                       collect (algebra-readable-leaves coefficient pairs))))))
+
+(defun algebra-angle-variable-p (variable)
+  (some (lambda (unit)
+          (and (algebra-pair-p unit)
+               (or (eq variable (algebra-kernel-variable (algebra-unit-cosine unit)))
+                   (eq variable (algebra-kernel-variable (algebra-unit-sine unit))))))
+        (algebra-ring-units *algebra-ring*)))
+
+(defun algebra-readable-leaf (p pairs)
+  (let ((sum 0)
+        (present (remove-if-not (lambda (unit) (algebra-unit-occurs-p unit p)) pairs)))
+    (dolist (class (algebra-parity-classes p present) sum)
+      (setq sum (pplus sum (algebra-shortest-class class present))))))
+
+(defun algebra-parity-classes (p pairs)
+  "P as a list of polynomials, each even or odd in every sine and cosine."
+  (let ((classes (list p)))
+    (dolist (unit pairs classes)
+      (dolist (kernel (list (algebra-unit-sine unit) (algebra-unit-cosine unit)))
+        (setq classes
+              (loop for class in classes
+                    append (algebra-split-parity class (algebra-kernel-variable kernel))))))))
+
+(defun algebra-split-parity (p variable)
+  (let ((even (algebra-parity-part p variable 0))
+        (odd (algebra-parity-part p variable 1)))
+    (remove 0 (list even odd) :test #'eql)))
+
+(defun algebra-parity-part (p variable parity)
+  (cond ((or (atom p) (pointergp variable (car p))) (if (zerop parity) p 0))
+        (t (psimp (car p)
+                  (loop with main = (eq variable (car p))
+                        for (exponent coefficient) on (cdr p) by #'cddr
+                        for part = (if main
+                                       (if (= (mod exponent 2) parity) coefficient 0)
+                                       (algebra-parity-part coefficient variable parity))
+                        unless (pzerop part) collect exponent and collect part)))))
+
+(defun algebra-shortest-class (p pairs)
+  "Try the forms of each angle, all combinations for few angles, else one angle after the other."
+  (if (<= (length pairs) 3)
+      (algebra-least (algebra-class-forms p pairs) #'algebra-term-count)
+      (dolist (unit pairs p)
+        (setq p (algebra-least (algebra-angle-forms p unit) #'algebra-term-count)))))
+
+(defun algebra-class-forms (p pairs)
+  (if (null pairs)
+      (list p)
+      (loop for form in (algebra-angle-forms p (car pairs))
+            append (algebra-class-forms form (cdr pairs)))))
+
+(defun algebra-angle-forms (p unit)
+  (let ((in-cosine (algebra-eliminate-sine p unit)))
+    (if (algebra-unit-occurs-p unit in-cosine)
+        (list in-cosine
+              (algebra-eliminate-cosine p unit)
+              (algebra-homogeneous in-cosine unit))
+        (list in-cosine))))
+
+(defun algebra-term-count (p)
+  "Number of terms, then of factors."
+  (labels ((terms (p) (if (atom p)
+                          1
+                          (loop for (nil coefficient) on (cdr p) by #'cddr
+                                sum (terms coefficient)))))
+    (+ (* 1000 (terms p)) (algebra-poly-size p))))
+
+(defun algebra-homogeneous (p unit)
+  "P of even powers of c (times c, s or c*s), made homogeneous in c^2, s^2 by c^2 + s^2 = 1."
+  (let* ((cosine (algebra-kernel-variable (algebra-unit-cosine unit)))
+         (sine (algebra-kernel-variable (algebra-unit-sine unit)))
+         (one (algebra-unit-sum unit))
+         (degree (algebra-degree p cosine sine))
+         (sum 0))
+    (dolist (term (algebra-terms-in p cosine sine) sum)
+      (destructuring-bind (i j coefficient) term
+        (setq sum (pplus sum (ptimes coefficient
+                                     (ptimes (ptimes (pexpt (list cosine 1 1) i)
+                                                     (pexpt (list sine 1 1) j))
+                                             (pexpt one (floor (- degree i j) 2))))))))))
+
+(defun algebra-unit-sum (unit)
+  "The form of the second degree in c and s that is 1."
+  (let ((cosine (list (algebra-kernel-variable (algebra-unit-cosine unit)) 2 1))
+        (sine (list (algebra-kernel-variable (algebra-unit-sine unit)) 2 1)))
+    (if (eq (algebra-unit-kind unit) 'circular)
+        (pplus cosine sine)
+        (pdifference cosine sine))))
+
+(defun algebra-degree (p cosine sine)
+  (loop for (i j) in (algebra-terms-in p cosine sine) maximize (+ i j)))
+
+(defun algebra-terms-in (p cosine sine)
+  "P as a list of (i j coefficient): the coefficients of cosine^i*sine^j."
+  (loop for (i coefficient) in (algebra-powers p cosine)
+        append (loop for (j inner) in (algebra-powers coefficient sine)
+                     collect (list i j inner))))
+
+(defun algebra-powers (p variable)
+  "P as a list of (exponent coefficient) in any of its variables."
+  (let ((powers nil))
+    (labels ((collect (p multiplier)
+               (cond ((or (atom p) (pointergp variable (car p)))
+                      (add 0 (ptimes p multiplier)))
+                     ((eq (car p) variable)
+                      (loop for (exponent coefficient) on (cdr p) by #'cddr
+                            do (add exponent (ptimes coefficient multiplier))))
+                     (t (loop for (exponent coefficient) on (cdr p) by #'cddr
+                              do (collect coefficient
+                                   (ptimes multiplier (list (car p) exponent 1)))))))
+             (add (exponent coefficient)
+               (let ((entry (assoc exponent powers)))
+                 (if entry
+                     (setf (cadr entry) (pplus (cadr entry) coefficient))
+                     (push (list exponent coefficient) powers)))))
+      (collect p 1)
+      powers)))
+
+;;; General expressions.
+
+(defun algebra-general (p)
+  "The expression of the polynomial P: expanded or nested, whichever is shorter."
+  (let ((nested (simplify (let (($ratexpand nil)) (pdisrep p))))
+        (expanded (if (< (algebra-poly-size p) 4000)
+                      (let (($ratexpand t)) (simplify (pdisrep p))))))
+    (if (and expanded (<= (algebra-size expanded) (* 5/4 (algebra-size nested))))
+        expanded
+        nested)))
+
+(defun algebra-general-quotient (n d)
+  (let ((sign (if (pminusp d) -1 1)))
+    (div (algebra-general (ptimes sign n)) (algebra-general (ptimes sign d)))))

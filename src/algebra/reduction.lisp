@@ -1,0 +1,115 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; Polynomials in kernels modulo their relations: s^2 = 1 - c^2 for each angle, kernel^n = radicand
+;;; for each root.  With s below the second degree and each root below its degree the remainder
+;;; is unique; it vanishes exactly when the polynomial vanishes (angles; for roots see zero.lisp).
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/kernels"))
+
+(defun algebra-reduce (p)
+  "The remainder of the polynomial P, a quotient (radicands may have denominators)."
+  (let ((quotient (cons (algebra-reduce-angles p) 1)))
+    (dolist (kernel (reverse (algebra-ring-kernels *algebra-ring*)) quotient)
+      (when (algebra-kernel-degree kernel)
+        (setq quotient (algebra-reduce-root quotient kernel))))))
+
+(defun algebra-reduce-angles (p)
+  (dolist (unit (algebra-ring-units *algebra-ring*) p)
+    (setq p (algebra-eliminate-sine p unit))))
+
+(defun algebra-pair-p (unit)
+  (member (algebra-unit-kind unit) '(circular hyperbolic)))
+
+(defun algebra-eliminate-sine (p unit)
+  "s^2 = 1 - c^2, or c^2 - 1 for hyperbolic angles."
+  (if (algebra-pair-p unit)
+      (algebra-replace-square p (algebra-kernel-variable (algebra-unit-sine unit))
+                              (algebra-other-square unit (algebra-unit-cosine unit) t))
+      p))
+
+(defun algebra-eliminate-cosine (p unit)
+  "c^2 = 1 - s^2, or 1 + s^2 for hyperbolic angles."
+  (if (algebra-pair-p unit)
+      (algebra-replace-square p (algebra-kernel-variable (algebra-unit-cosine unit))
+                              (algebra-other-square unit (algebra-unit-sine unit) nil))
+      p))
+
+(defun algebra-other-square (unit kept sine)
+  (let ((x (algebra-kernel-variable kept)))
+    (cond ((eq (algebra-unit-kind unit) 'circular) (list x 2 -1 0 1))
+          (sine (list x 2 1 0 -1))
+          (t (list x 2 1 0 1)))))
+
+(defun algebra-replace-square (p variable square)
+  "Put SQUARE for variable^2 in P."
+  (cond ((or (atom p) (pointergp variable (car p))) p)
+        ((eq variable (car p)) (algebra-lower-powers p variable square))
+        (t (let ((sum 0) (changed nil))
+             (loop for (exponent coefficient) on (cdr p) by #'cddr
+                   for replaced = (algebra-replace-square coefficient variable square)
+                   do (unless (eq replaced coefficient) (setq changed t))
+                      (setq sum (pplus sum (ptimes (list (car p) exponent 1) replaced))))
+             (if changed sum p)))))
+
+(defun algebra-lower-powers (p variable square)
+  (if (< (cadr p) 2)
+      p
+      (let ((sum 0))
+        (loop for (exponent coefficient) on (cdr p) by #'cddr
+              do (setq sum
+                       (pplus sum
+                              (ptimes (ptimes coefficient (pexpt square (floor exponent 2)))
+                                      (if (oddp exponent) (list variable 1 1) 1)))))
+        sum)))
+
+(defun algebra-reduce-root (quotient kernel)
+  "Lower the powers of a root in the numerator of QUOTIENT."
+  (let ((p (car quotient)) (variable (algebra-kernel-variable kernel)))
+    (if (or (atom p) (not (algebra-occurs-p variable p)))
+        quotient
+        (let ((lowered (algebra-lower-root p variable (algebra-kernel-degree kernel)
+                                           (algebra-kernel-radicand kernel))))
+          (algebra-angles-again (ratquotient lowered (cons (cdr quotient) 1)))))))
+
+(defun algebra-angles-again (quotient)
+  (let ((reduced (algebra-reduce-angles (car quotient))))
+    (if (eq reduced (car quotient)) quotient (ratreduce reduced (cdr quotient)))))
+
+(defun algebra-lower-root (p variable degree radicand)
+  (cond ((or (atom p) (pointergp variable (car p))) (cons p 1))
+        ((eq variable (car p))
+         (algebra-sum
+          (loop for (exponent coefficient) on (cdr p) by #'cddr
+                collect (multiple-value-bind (whole rest) (floor exponent degree)
+                          (rattimes (cons (ptimes coefficient
+                                                  (if (zerop rest) 1 (list variable rest 1)))
+                                          1)
+                                    (ratexpt radicand whole) t)))))
+        (t (algebra-sum
+            (loop for (exponent coefficient) on (cdr p) by #'cddr
+                  collect (rattimes (cons (list (car p) exponent 1) 1)
+                                    (algebra-lower-root coefficient variable degree radicand)
+                                    t))))))
+
+(defun algebra-occurs-p (variable p)
+  (cond ((atom p) nil)
+        ((pointergp variable (car p)) nil)
+        ((eq variable (car p)) t)
+        (t (loop for (nil coefficient) on (cdr p) by #'cddr
+                 thereis (algebra-occurs-p variable coefficient)))))
+
+(defun algebra-unit-occurs-p (unit p)
+  (or (algebra-occurs-p (algebra-kernel-variable (algebra-unit-cosine unit)) p)
+      (algebra-occurs-p (algebra-kernel-variable (algebra-unit-sine unit)) p)))
+
+(defun algebra-poly-size (p)
+  (if (atom p)
+      1
+      (loop for (exponent coefficient) on (cdr p) by #'cddr
+            sum (+ (min exponent 2) (algebra-poly-size coefficient)))))
+
+(defun algebra-vanishes-p (p)
+  (pzerop (car (algebra-reduce p))))
