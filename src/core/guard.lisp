@@ -29,7 +29,7 @@
 
 (defun core-information-lists ()
   "The lists that Maxima keeps of what the user made: functions, rules, options set, ..."
-  (remove-if-not #'boundp (remove '$labels (cdr $infolists))))
+  (remove-if-not #'boundp (set-difference (cdr $infolists) '($labels $contexts $activecontexts))))
 
 (defun core-default-options ()
   "Two lists: option variables that differ from Maxima's defaults, and the defaults."
@@ -67,24 +67,21 @@
 
 (defun core-with-facts (facts function)
   "Calls FUNCTION in a context below the user's in which FACTS are assumed."
-  (let ((context (gensym "$DYNARCH")) (outer $context))
-    (mfuncall '$newcontext context)
-    (unwind-protect
-         (progn
-           (mfuncall '$activate outer)
-           (dolist (fact facts)
-             (when (eq (assume fact) '$inconsistent)
-               (core-warn "the parameter fact ~a contradicts what the session assumes" (core-words (list fact)))))
-           (funcall function))
-      (setq $context outer context outer)
-      ($killcontext context))))
+  (with-new-context ()
+    (dolist (fact facts)
+      (when (eq (assume fact) '$inconsistent)
+        (core-warn "the parameter fact ~a contradicts what the session assumes" (core-words (list fact)))))
+    (funcall function)))
+
+(defun core-put-away (name)
+  "Keeps the value of NAME for the next use of the guard, and unbinds it."
+  (setq *core-kept-values* (acons name (symbol-value name) (remove name *core-kept-values* :key #'car)))
+  (makunbound name))
 
 (defun core-hide-new-values (before)
   "Variables that came into being inside the guard are put away for its next use."
   (dolist (name (cdr $values))
-    (when (and (boundp name) (not (member name before)))
-      (push (cons name (symbol-value name)) *core-kept-values*)
-      (makunbound name))))
+    (when (and (boundp name) (not (member name before))) (core-put-away name))))
 
 (defun core-guarded (facts function)
   "The value of FUNCTION in a clean session with FACTS."

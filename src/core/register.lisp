@@ -16,25 +16,31 @@
   kinds      ; kinds of archive the dialog may ask for
   numerical) ; t where `values', `start' and `time' count
 
-(defstruct core-rule kinds part function inputs key record field)
+(defstruct core-rule kinds given part function inputs same record field)
 
 (defun core-public (name &key forms trailing options kinds numerical)
   "States a public function. FORMS of calls on expressions; TRAILING arguments after a system."
   (setf (gethash name *core-publics*)
         (make-core-public :name name :forms forms :trailing trailing :options options :kinds kinds :numerical numerical)))
 
+(defun core-same-case-p (rule other)
+  (and (equal (core-rule-kinds rule) (core-rule-kinds other)) (equal (core-rule-given rule) (core-rule-given other))))
+
 (defun core-add-rule (name rule)
   (setf (gethash name *core-rules*)
-        (append (remove (core-rule-kinds rule) (gethash name *core-rules*) :key #'core-rule-kinds :test #'equal)
-                (list rule))))
+        (append (remove rule (gethash name *core-rules*) :test #'core-same-case-p) (list rule))))
 
 (defun core-rule (name kinds part function &rest inputs)
   "NAME is FUNCTION of PART applied to INPUTS: names, or (name default). KINDS is a list of kinds or :any."
   (core-add-rule name (make-core-rule :kinds kinds :part part :function (core-symbol function) :inputs inputs)))
 
-(defun core-rule-key (name kinds key)
-  "NAME is the value of KEY in the description."
-  (core-add-rule name (make-core-rule :kinds kinds :key key)))
+(defun core-rule-given (option name kinds part function &rest inputs)
+  "The same where OPTION is given in the call."
+  (core-add-rule name (make-core-rule :kinds kinds :given option :part part :function (core-symbol function) :inputs inputs)))
+
+(defun core-rule-same-as (name kinds other)
+  "NAME is the quantity or key OTHER under another name."
+  (core-add-rule name (make-core-rule :kinds kinds :same other)))
 
 (defun core-rule-field (name kinds record field)
   "NAME is the part FIELD of the quantity RECORD."
@@ -49,14 +55,21 @@
   (let ((name (maybe-invert-string-case (string symbol))))
     (if (and (plusp (length name)) (char= (char name 0) #\$)) (subseq name 1) name)))
 
-(defun core-find-rule (name kind)
-  "The rule for quantity NAME of an archive of KIND, the special before the general."
-  (let ((rules (gethash name *core-rules*)))
-    (or (find-if (lambda (r) (and (listp (core-rule-kinds r)) (member kind (core-rule-kinds r) :test #'equal))) rules)
-        (find :any rules :key #'core-rule-kinds))))
+(defun core-rule-fits (rule kind given)
+  "Whether RULE serves an archive of KIND; GIVEN tells of an option whether the call has it."
+  (and (or (eq (core-rule-kinds rule) :any) (member kind (core-rule-kinds rule) :test #'equal))
+       (or (null (core-rule-given rule)) (funcall given (core-rule-given rule)))))
 
-(defun core-kinds-of (name)
-  "The kinds of archive that have a rule of their own for NAME."
-  (remove-duplicates (loop for r in (gethash name *core-rules*)
-                           when (listp (core-rule-kinds r)) append (core-rule-kinds r))
-                     :test #'equal :from-end t))
+(defun core-rule-rank (rule)
+  "The special before the general."
+  (+ (if (core-rule-given rule) 0 1) (if (eq (core-rule-kinds rule) :any) 2 0)))
+
+(defun core-find-rule (name kind given)
+  "The rule for quantity NAME, or nil."
+  (first (sort (remove-if-not (lambda (rule) (core-rule-fits rule kind given)) (gethash name *core-rules*))
+               #'< :key #'core-rule-rank)))
+
+(defvar *core-abbreviator* nil "Part and function that express a result in the archive's abbreviations.")
+
+(defun core-abbreviator (part function)
+  (setq *core-abbreviator* (cons part (core-symbol function))))

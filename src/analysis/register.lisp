@@ -1,0 +1,89 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What the room of analysis can compute, for archives, for equations and for functions typed in the session. Data only.
+;;; The kinds "function", "matrices", "pencil" and "polynomial" stand for calls on expressions.
+
+(in-package :maxima)
+
+(defparameter *analysis-motions* '("mechanical" "lagrangian") "Kinds whose equations are of second order.")
+(defparameter *analysis-states* '("circuit" "equations") "Kinds whose equations are of first order.")
+(defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
+(defparameter *analysis-none* '((mlist simp)))
+
+(core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
+
+(core-rule-same-as "state_equations" '("circuit") "StateEquations")
+(core-rule-same-as "state_equations" '("equations") "equations")
+
+;;; Stationary sets
+
+(core-public "StationaryEquations" :forms '(("function" "K" "variables")) :kinds *analysis-motions*)
+(core-rule "StationaryEquations" '("function") "analysis/stationary" "analysis_stationary_equations" "K" "variables")
+(core-rule "StationaryEquations" *analysis-motions* "analysis/stationary" "analysis_stationary_routh"
+  "RouthFunction" "remaining_coordinates")
+
+(core-public "StationarySolutions"
+  :forms '(("function" "K" "variables")) :options '("unknowns" "where") :kinds *analysis-motions*)
+(core-rule "StationarySolutions" '("function") "analysis/stationary" "analysis_stationary_solutions"
+  "K" "variables" (list "unknowns" *analysis-none*) (list "where" *analysis-none*))
+(core-rule "StationarySolutions" *analysis-motions* "analysis/stationary" "analysis_stationary_motions"
+  "RouthFunction" "remaining_coordinates" (list "unknowns" *analysis-none*) (list "where" *analysis-none*))
+
+(core-public "InvariantManifolds"
+  :forms '(("function" "K" "variables")) :options '("extend" "on" "unknowns" "cyclic") :kinds *analysis-motions*)
+(core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds" "analysis_extended_routh"
+  "RouthFunction" "remaining_coordinates" "extend" "cyclic_integrals")
+(core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds" "analysis_extended_routh"
+  "K" "variables" "extend" (list "cyclic_integrals" *analysis-none*))
+(core-rule "InvariantManifolds" '("function") "analysis/manifolds" "analysis_invariant_manifolds"
+  "K" "variables" (list "unknowns" *analysis-none*) (list "on" *analysis-none*))
+
+(core-public "Equilibria"
+  :forms '(("equations" "equations" "variables")) :options '("unknowns" "where") :kinds *analysis-kinds*)
+(core-rule "Equilibria" *analysis-states* "analysis/equilibria" "analysis_equilibria"
+  "state_equations" (list "variables" *analysis-none*) (list "unknowns" *analysis-none*) (list "where" *analysis-none*)
+  (list "laws" *analysis-none*))
+(core-rule "Equilibria" *analysis-motions* "analysis/equilibria" "analysis_equilibria"
+  "LagrangeEquations" "coordinates" (list "unknowns" *analysis-none*) (list "where" *analysis-none*)
+  (list "laws" *analysis-none*))
+
+;;; First approximation and criteria
+
+(core-public "FirstApproximation"
+  :forms '(("lagrangian" "Lagrangian" "coordinates" "solution") ("equations" "equations" "solution"))
+  :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
+(core-rule "FirstApproximation" *analysis-states* "analysis/first_approximation" "analysis_first_approximation_state"
+  "state_equations" (list "variables" *analysis-none*) "solution" (list "where" *analysis-none*)
+  (list "laws" *analysis-none*) (list "unknowns" *analysis-none*))
+(core-rule "FirstApproximation" *analysis-motions* "analysis/first_approximation" "analysis_first_approximation_motion"
+  "LagrangeEquations" "coordinates" "solution" (list "where" *analysis-none*) (list "laws" *analysis-none*))
+
+(core-rule-field "A" *analysis-states* "FirstApproximation" "A")
+(core-rule-field "M" *analysis-motions* "FirstApproximation" "M")
+(core-rule-field "S" *analysis-motions* "FirstApproximation" "S")
+(core-rule-field "W" *analysis-motions* "FirstApproximation" "W")
+
+(core-public "CharacteristicPolynomial"
+  :forms '(("matrices" "A" "lambda") ("pencil" "M" "S" "W" "lambda"))
+  :trailing '("solution") :options '("where" "unknowns" "lambda") :kinds *analysis-kinds*)
+(core-rule "CharacteristicPolynomial" (cons "matrices" *analysis-states*) "analysis/characteristic"
+  "analysis_characteristic_polynomial" "A" '("lambda" $lambda))
+(core-rule "CharacteristicPolynomial" (cons "pencil" *analysis-motions*) "analysis/characteristic"
+  "analysis_pencil_polynomial" "M" "S" "W" '("lambda" $lambda))
+
+(core-rule-same-as "polynomial" *analysis-kinds* "CharacteristicPolynomial")
+
+(loop for (name part function) in '(("HurwitzMinors" "analysis/hurwitz" "analysis_hurwitz_minors")
+                                    ("RouthHurwitz" "analysis/hurwitz" "analysis_routh_hurwitz")
+                                    ("LienardChipart" "analysis/lienard_chipart" "analysis_lienard_chipart"))
+      do (core-public name :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
+                           :options '("where" "unknowns" "lambda") :kinds *analysis-kinds*)
+         (core-rule name :any part function "polynomial" '("lambda" $lambda)))
+
+(core-public "Stability"
+  :forms '(("equations" "equations" "solution"))
+  :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
+(core-rule "Stability" *analysis-states* "analysis/stability" "analysis_stability_state"
+  "state_equations" (list "variables" *analysis-none*) "solution" (list "where" *analysis-none*)
+  (list "laws" *analysis-none*) (list "unknowns" *analysis-none*))
+(core-rule "Stability" *analysis-motions* "analysis/stability" "analysis_stability_motion"
+  "LagrangeEquations" "coordinates" "solution" (list "where" *analysis-none*) (list "laws" *analysis-none*))

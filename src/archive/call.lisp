@@ -1,0 +1,122 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; A call taken apart: what is the system, what are the arguments and options, which of the forms of API it is. Everything given
+;;; becomes a named quantity in the table `given', on a level with the keys of the archive, which it overrules.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/check" "archive/results"))
+
+(defstruct archive-call
+  public archive kind
+  (given (make-hash-table :test #'equal))   ; name -> value: arguments and options
+  (values (make-hash-table :test #'equal))  ; name -> value computed or read in this call
+  (needs (make-hash-table :test #'equal))   ; name -> archive-need
+  (new '())                                 ; steps computed, newest first
+  (facts '()))
+
+(defparameter *archive-common-options* '("save" "verbose" "progress" "form" "result"))
+
+(defun archive-split-arguments (arguments)
+  "Two values: the leading arguments, and the options, equations at the end."
+  (let ((first-option (or (position-if #'archive-equation-p arguments) (length arguments))))
+    (dolist (late (nthcdr first-option arguments))
+      (unless (archive-equation-p late)
+        (core-error "options such as save = false come after all other arguments; found ~a after one" (core-words (list late)))))
+    (values (subseq arguments 0 first-option) (nthcdr first-option arguments))))
+
+(defun archive-set-p (e)
+  (and (consp e) (consp (car e)) (or (eq (caar e) '$set) (some #'archive-set-p (cdr e)))))
+
+(defun archive-system-p (argument public)
+  "Whether ARGUMENT is a path or a description list."
+  (and (or (core-public-kinds public) (core-public-trailing public))
+       (or (stringp argument)
+           (and (archive-list-p argument)
+                (some (lambda (e) (and (archive-equation-p e) (member (cadr e) '($kind $dynarch))))
+                      (cdr argument))))))
+
+(defun archive-open-system (system)
+  "The archive of a path, as given or found by Maxima's file_search, or of a description list."
+  (if (stringp system)
+      (archive-open (archive-found-path system))
+      (archive-check-list system)))
+
+(defun archive-found-path (path)
+  (if (core-existing-file path)
+      path
+      (let ((found (core-attempt (lambda () ($file_search path)))))
+        (if (stringp (car found)) (car found) path))))
+
+(defun archive-new-call (public archive kind)
+  (let ((call (make-archive-call :public public :archive archive :kind kind)))
+    (setq *core-archive* archive)
+    (when archive (setf (archive-call-facts call) (archive-facts (archive-description archive))))
+    call))
+
+(defun archive-give (call name value)
+  (when (archive-set-p value)
+    (core-error "the argument ~a holds a set { }, in which order and equal items are lost; use [ ]" name))
+  (setf (gethash name (archive-call-given call)) value))
+
+(defun archive-count-words (n one) (format nil "~r ~a~:[s~;~]" n one (= n 1)))
+
+(defun archive-give-positional (call names values)
+  (loop for name in (remove "&optional" names :test #'equal)
+        for value in values
+        do (archive-give call name value)))
+
+(defun archive-give-trailing (call values)
+  (let ((names (core-public-trailing (archive-call-public call))))
+    (when (> (length values) (length names))
+      (core-error "after the system at most ~a may follow~@[ (~{~a~^, ~})~], found ~d"
+                  (archive-count-words (length names) "argument") names (length values)))
+    (archive-give-positional call names values)))
+
+(defun archive-form-fits (form values)
+  "Whether the number of VALUES fits FORM = (kind name .. &optional name ..)."
+  (let* ((names (cdr form)) (optional (position "&optional" names :test #'equal))
+         (least (or optional (length names)))
+         (most (if optional (1- (length names)) least)))
+    (<= least (length values) most)))
+
+(defun archive-matching-form (public values)
+  (or (find-if (lambda (form) (archive-form-fits form values)) (core-public-forms public))
+      (core-error "call it as ~{~a~^, or as ~}" (archive-call-patterns public))))
+
+(defun archive-call-patterns (public)
+  "The ways of calling PUBLIC, as a person types them."
+  (let ((name (core-public-name public)))
+    (append
+     (when (core-public-kinds public)
+       (list (format nil "~a(\"archive.txt\"~{, ~a~})" name (core-public-trailing public))))
+     (loop for form in (core-public-forms public)
+           collect (format nil "~a(~{~a~^, ~})" name (remove "&optional" (cdr form) :test #'equal))))))
+
+(defun archive-option-name (equation)
+  (let ((left (cadr equation)))
+    (cond ((stringp left) left)
+          ((and (symbolp left) left) (core-spelling left))
+          (t (core-error "an option has the form name = value, found ~a; if the name has a value in your session, quote it: 'name = value"
+                         (core-words (list equation)))))))
+
+(defun archive-known-options (call)
+  (append (core-public-options (archive-call-public call))
+          *archive-common-options*
+          (archive-overrulable-keys (archive-call-kind call))))
+
+(defun archive-give-options (call options)
+  "Options become quantities; a key of [system] among them overrules the archive's."
+  (let ((known (archive-known-options call)))
+    (dolist (equation options)
+      (let ((name (archive-option-name equation)))
+        (unless (member name known :test #'equal)
+          (core-error "there is no option ~a; the options are ~{~a~^, ~}" name (sort (copy-list known) #'string<)))
+        (archive-give call name (caddr equation))
+        (when (and (archive-call-archive call) (member name (archive-overrulable-keys (archive-call-kind call)) :test #'equal))
+          (setf (archive-call-archive call)
+                (archive-overruled (archive-call-archive call) name (caddr equation))))))
+    (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil))))
+
+(defun archive-option (call name default)
+  (gethash name (archive-call-given call) default))

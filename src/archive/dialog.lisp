@@ -1,0 +1,234 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The dialog: asks for the keys of an archive in the order of the table of keys, the system first, then section by section.
+;;; Every answer goes through the parser and the checks that read archives. `?' explains, Enter takes the default, `.' takes the
+;;; defaults of the rest of a section. At the end: the echo, changes, the file. End of input leaves nothing behind.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/keys" "archive/check" "archive/store"))
+
+(defvar *archive-fresh-input* nil "True until the first line is read: what is left of the line that called us is passed over.")
+
+(defstruct archive-item section key text)
+
+;;; Asking a line, as Maxima itself asks
+
+(defun archive-input-stream ()
+  #+sbcl *standard-input*
+  #-sbcl *query-io*)
+
+(defun archive-ask-line (question)
+  "The person's answer to QUESTION, without blanks around it and without a closing semicolon."
+  (format-prompt t "~a" (concatenate 'string question (string #\Newline)))
+  (finish-output)
+  (let ((line (archive-read-line)))
+    (when (null line)
+      (core-error "the input ended before the description was complete; nothing was written"))
+    (archive-trimmed-answer line)))
+
+(defun archive-read-line ()
+  (let ((line (read-line (archive-input-stream) nil nil)))
+    (if (and *archive-fresh-input* line (string= "" (string-trim '(#\Space #\Tab #\Return) line)))
+        (progn (setq *archive-fresh-input* nil) (archive-read-line))
+        (progn (setq *archive-fresh-input* nil) line))))
+
+(defun archive-trimmed-answer (line)
+  (let ((answer (string-trim '(#\Space #\Tab #\Return #\Newline) line)))
+    (if (and (plusp (length answer)) (char= (char answer (1- (length answer))) #\;))
+        (string-right-trim '(#\Space #\Tab) (subseq answer 0 (1- (length answer))))
+        answer)))
+
+(defun archive-yes-p (question)
+  (let ((answer (string-downcase (archive-ask-line question))))
+    (member answer '("y" "yes") :test #'string=)))
+
+;;; One key
+
+(defun archive-question-text (key section required)
+  (format nil "~a: ~a~a" section (archive-key-question key)
+          (cond (required " (needed; ? explains)")
+                ((archive-default key) (format nil " [~a]" (archive-default key)))
+                (t " [Enter: none]"))))
+
+(defun archive-explain (key)
+  (core-say (format nil "  ~a: ~a. Type ~a.~@[ Enter takes ~a.~]" (archive-key-name key) (archive-key-help key)
+                    (archive-type-phrase (archive-key-type key)) (archive-default key))))
+
+(defun archive-quoted-text (text)
+  "TEXT as a string of the archive, if it is not one yet."
+  (if (char= (char text 0) #\") text (format nil "\"~a\"" (substitute #\' #\" text))))
+
+(defun archive-answer-for-archive (key answer)
+  (if (and (eq (archive-key-type key) :text) (plusp (length answer))) (archive-quoted-text answer) answer))
+
+(defun archive-ask-key (key section required)
+  "The text of the value of KEY; nil for its default, :rest where the person takes all defaults that follow."
+  (loop
+    (let* ((answer (archive-ask-line (archive-question-text key section required)))
+           (text (archive-answer-for-archive key answer)))
+      (cond ((string= answer "?") (archive-explain key))
+            ((and (string= answer ".") (not required)) (return :rest))
+            ((and (member answer '("" ".") :test #'string=) required)
+             (core-say (format nil "  ~a is needed: ~a." (archive-key-name key) (archive-type-phrase (archive-key-type key)))))
+            ((string= answer "") (return nil))
+            (t (let ((trouble (archive-value-trouble key text)))
+                 (if trouble (core-say (format nil "  ~a" trouble)) (return text))))))))
+
+;;; Sections
+
+(defun archive-answered (answers section name)
+  "The text given for the key NAME of SECTION, or nil."
+  (let ((answer (find-if (lambda (a) (and (string= section (archive-item-section a))
+                                          (string= name (archive-key-name (archive-item-key a)))))
+                         answers)))
+    (and answer (archive-item-text answer))))
+
+(defun archive-key-needed (key answers section)
+  "Three-valued: :needed, :open, or nil where the key has no place beside the answers so far."
+  (let ((default (archive-key-default key)))
+    (cond ((eq default :required) :needed)
+          ((atom default) :open)
+          ((eq (first default) :when)
+           (and (equal (archive-answered answers section (second default)) (third default)) :needed))
+          (t (if (archive-answered answers section (second default)) nil :needed)))))
+
+(defun archive-ask-section (kind word section)
+  "Answers to the keys of one SECTION, in their order."
+  (let ((answers '()) (rest nil))
+    (dolist (key (archive-keys kind word) (nreverse answers))
+      (let ((need (archive-key-needed key answers section)))
+        (when (and need (or (eq need :needed) (not rest)))
+          (let ((text (archive-ask-key key section (eq need :needed))))
+            (cond ((eq text :rest) (setq rest t))
+                  (text (push (make-archive-item :section section :key key :text text) answers)))))))))
+
+(defun archive-ask-count (question)
+  (loop
+    (let ((answer (archive-ask-line question)))
+      (cond ((string= answer "") (return 0))
+            ((and (every #'digit-char-p answer) (< (length answer) 4)) (return (parse-integer answer)))
+            (t (core-say "  Type a number, such as 0, 1 or 2."))))))
+
+(defun archive-ask-names (question)
+  "Names, one after another, until an empty answer."
+  (loop for name = (archive-ask-line question) until (string= name "") collect name))
+
+(defun archive-ask-rows (section)
+  "The rows of SECTION, one a line, until an empty answer."
+  (core-say (format nil "  [~a]: one row a line, ~a; Enter ends." section (fourth (archive-section-row section))))
+  (loop for n from 1
+        for row = (archive-ask-good-row section n)
+        until (string= row "")
+        collect (make-archive-item :section section :key nil :text row)))
+
+(defun archive-ask-good-row (section n)
+  (loop
+    (let* ((row (archive-ask-line (format nil "~a: row ~d [Enter: no more]" section n)))
+           (trouble (and (string/= row "") (string/= row "?") (archive-row-trouble section row))))
+      (cond ((string= row "?") (core-say (format nil "  ~a" (fourth (archive-section-row section)))))
+            (trouble (core-say (format nil "  ~a" trouble)))
+            (t (return row))))))
+
+(defun archive-section-names (row answers)
+  "Names of the sections of one sort, as ROW of *archive-sections* says there are."
+  (let ((word (first row)))
+    (ecase (third row)
+      (:one (list word))
+      (:counted (loop for k from 1 to (parse-integer (archive-answered answers "system" "bodies"))
+                      collect (format nil "~a ~d" word k)))
+      (:numbered (loop for k from 1 to (archive-ask-count (format nil "Number of sections [~a k], ~a [0]" word (fourth row)))
+                       collect (format nil "~a ~d" word k)))
+      (:named (mapcar (lambda (name) (format nil "~a ~a" word name))
+                      (archive-ask-names (format nil "Name of a [~a], ~a [Enter: no more]" word (fourth row))))))))
+
+(defun archive-ask-title (kind)
+  (let* ((key (archive-find-key kind "top" "title"))
+         (text (archive-ask-key key "top" nil)))
+    (when (stringp text) (list (make-archive-item :section "top" :key key :text text)))))
+
+(defun archive-ask-sections (kind)
+  "All answers but the title, in the order of the table."
+  (let ((answers '()))
+    (dolist (row (archive-sections-of kind) answers)
+      (cond ((string= (first row) "top"))
+            ((eq (third row) :rows)
+             (unless (archive-answered answers "system" "graph")
+               (setq answers (append answers (archive-ask-rows (first row))))))
+            (t (dolist (section (archive-section-names row answers))
+                 (setq answers (append answers (archive-ask-section kind (first row) section)))))))))
+
+(defun archive-ask-kind (kinds)
+  (if (null (cdr kinds))
+      (car kinds)
+      (loop
+        (let ((answer (archive-ask-line (format nil "Kind of system (~{~a~^, ~})" kinds))))
+          (when (member answer kinds :test #'string=) (return answer))
+          (core-say (format nil "  Type one of ~{~a~^, ~}." kinds))))))
+
+;;; The end: echo, changes, file
+
+(defun archive-text-of-answers (kind answers)
+  (with-output-to-string (out)
+    (format out "dynarch = 1~%kind = ~a~%" kind)
+    (let ((section "top"))
+      (dolist (answer answers)
+        (unless (equal section (archive-item-section answer))
+          (setq section (archive-item-section answer))
+          (format out "~%[~a]~%" section))
+        (format out "~@[~a = ~]~a~%" (and (archive-item-key answer) (archive-key-name (archive-item-key answer)))
+                (archive-item-text answer))))))
+
+(defun archive-echo (answers)
+  (core-say "The description:")
+  (loop for answer in answers for n from 1
+        do (core-say (format nil "~3d  ~a: ~@[~a = ~]~a" n (archive-item-section answer)
+                             (and (archive-item-key answer) (archive-key-name (archive-item-key answer)))
+                             (archive-item-text answer)))))
+
+(defun archive-change-answer (answer)
+  (let ((key (archive-item-key answer)))
+    (setf (archive-item-text answer)
+          (if key
+              (or (archive-required-text key (archive-item-section answer)) (archive-item-text answer))
+              (archive-ask-good-row (archive-item-section answer) 1)))))
+
+(defun archive-required-text (key section)
+  (let ((text (archive-ask-key key section nil)))
+    (if (eq text :rest) nil text)))
+
+(defun archive-ask-changes (kind answers)
+  "Shows the description until the person is content and it passes all checks; returns its text."
+  (loop
+    (archive-echo answers)
+    (let* ((text (archive-text-of-answers kind answers))
+           (trouble (archive-text-trouble text))
+           (answer (progn
+                     (when trouble (core-say (format nil "  ~a" trouble)))
+                     (archive-ask-line "Number of the item to change [Enter: all is right]")))
+           (number (and (plusp (length answer)) (every #'digit-char-p answer) (< (length answer) 5) (parse-integer answer))))
+      (cond ((and (string= answer "") (not trouble)) (return text))
+            ((and number (<= 1 number (length answers))) (archive-change-answer (nth (1- number) answers)))
+            (t (core-say (format nil "  Type a number from 1 to ~d." (length answers))))))))
+
+(defun archive-ask-file (kind)
+  "The file to write; one that is there is replaced only after `yes'."
+  (loop
+    (let* ((answer (archive-ask-line (format nil "File [~a.txt]" kind)))
+           (file (if (string= answer "") (format nil "~a.txt" kind) (string-trim "\"" answer))))
+      (when (or (not (core-existing-file file))
+                (archive-yes-p (format nil "~a exists; replace it? (yes or no)" file)))
+        (return file)))))
+
+(defun archive-dialog (name kinds)
+  "Asks for the description of a system of one of KINDS for the function NAME; returns the path of the archive written."
+  (let ((*archive-fresh-input* (null $load_pathname)))
+    (core-say (format nil "~a: description of a system. ? explains a question, Enter takes the answer in [ ], . takes them all to the end of a section."
+                      name))
+    (let* ((kind (archive-ask-kind kinds))
+           (sections (archive-ask-sections kind))
+           (text (archive-ask-changes kind (append (archive-ask-title kind) sections)))
+           (file (archive-ask-file kind)))
+      (archive-write-new file text)
+      (core-say (format nil "The description is in ~a. The same again without questions:~%~a(\"~a\");" file name file))
+      file)))

@@ -1,0 +1,55 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The dispatcher: turns a call such as Lagrangian("pendulum.txt", save = false) into quantities, follows the register's rules
+;;; from the target down to the keys of the archive, runs each pure function in the guard, saves the steps, returns the result.
+;;; Look first at archive-call, then at archive-value.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/call" "archive/steps"))
+
+(defun archive-call (name arguments)
+  "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
+  (multiple-value-bind (value text)
+      (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '()) (*core-started* (get-internal-real-time))
+            (*core-progress* t))
+        (core-caught (lambda () (archive-called name arguments))))
+    (if text (merror "~A" text) value)))
+
+(defun archive-called (name arguments)
+  (multiple-value-bind (positional options) (archive-split-arguments arguments)
+    (let ((public (gethash name *core-publics*)))
+      (cond ((and (null positional) (core-public-kinds public))
+             (archive-ask public options))
+            ((archive-system-p (car positional) public)
+             (archive-call-system public positional options))
+            (t (archive-call-expressions public positional options))))))
+
+(defun archive-ask (public options)
+  "The dialog, which ends in a path or a description; then the call on it."
+  (core-require "archive/dialog")
+  (let ((system (funcall 'archive-dialog (core-public-name public) (core-public-kinds public))))
+    (archive-call-system public (list system) options)))
+
+(defun archive-call-system (public positional options)
+  (let* ((archive (archive-open-system (car positional)))
+         (call (archive-new-call public archive (archive-kind archive))))
+    (archive-give-trailing call (cdr positional))
+    (archive-give-options call options)
+    (setq *core-place* (lambda (section key) (archive-place archive section key)))
+    (archive-run call)))
+
+(defun archive-call-expressions (public positional options)
+  (let* ((form (archive-matching-form public positional))
+         (call (archive-new-call public nil (car form))))
+    (archive-give-positional call (cdr form) positional)
+    (archive-give-options call options)
+    (archive-run call)))
+
+(defun archive-run (call)
+  "The value of the call's target, computed in the guard; new steps are saved."
+  (let* ((target (core-public-name (archive-call-public call)))
+         (value (core-guarded (archive-call-facts call)
+                              (lambda () (archive-abbreviated call (archive-value call target))))))
+    (archive-save-steps call)
+    value))

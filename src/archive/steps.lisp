@@ -1,0 +1,204 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; From a target down to the keys: each quantity is given, or stands in a result section that is still good, or follows from a
+;;; rule of the register, or is a key of the archive. What a step needs is known before anything is computed, so a result that
+;;; is up to date costs one reading.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/call" "archive/results"))
+
+(defstruct archive-need
+  keys     ; keys of [system] the quantity depends on; "*" is the whole structure
+  extras)  ; arguments, options and hand-edited results it depends on, as text
+
+(defstruct archive-step name value from checks left-out)
+
+(defparameter *archive-analysis-keys*
+  '("title" "where" "abbreviations" "unknowns" "solution" "values" "start" "time")
+  "Keys that are no part of the structure of a system.")
+
+(defun archive-rule (call name)
+  (core-find-rule name (archive-call-kind call)
+                  (lambda (option) (nth-value 1 (gethash option (archive-call-given call))))))
+
+(defun archive-input-name (input) (if (consp input) (car input) input))
+
+(defun archive-missing (call name)
+  (if (archive-call-archive call)
+      (core-error "~a is needed, and this ~a archive does not give it~@[ (~a)~]; write ~a = .. into [system] or into the call"
+                  name (archive-call-kind call) (archive-path (archive-call-archive call)) name)
+      (core-error "~a is needed; give it as an argument or as an option ~a = .." name name)))
+
+;;; What a quantity depends on
+
+(defun archive-needs (call name)
+  "The archive-need of the quantity NAME."
+  (or (gethash name (archive-call-needs call))
+      (let ((need (make-archive-need :keys '() :extras '())))
+        (setf (gethash name (archive-call-needs call)) need)
+        (archive-collect-needs call name need)
+        need)))
+
+(defun archive-collect-needs (call name need)
+  (multiple-value-bind (value given) (gethash name (archive-call-given call))
+    (let ((rule (archive-rule call name)))
+      (cond (given (push (format nil "~a = ~a" name (archive-spell value)) (archive-need-extras need)))
+            ((equal name "description")
+             (push "*" (archive-need-keys need))
+             (archive-add-overrules call need))
+            ((null rule) (push name (archive-need-keys need)))
+            ((core-rule-same rule) (archive-add-needs call need (core-rule-same rule)))
+            ((core-rule-record rule) (archive-add-needs call need (core-rule-record rule)))
+            (t (dolist (input (core-rule-inputs rule))
+                 (archive-add-needs call need (archive-input-name input)))
+               (archive-add-edited call name need))))))
+
+(defun archive-add-needs (call need name)
+  (let ((more (archive-needs call name)))
+    (setf (archive-need-keys need) (union (archive-need-keys need) (archive-need-keys more) :test #'equal)
+          (archive-need-extras need) (union (archive-need-extras need) (archive-need-extras more) :test #'equal))))
+
+(defun archive-add-overrules (call need)
+  "Keys of the structure that the call overrules."
+  (maphash (lambda (name value)
+             (when (and (member name (archive-overrulable-keys (archive-call-kind call)) :test #'equal)
+                        (not (member name *archive-analysis-keys* :test #'equal)))
+               (push (format nil "~a = ~a" name (archive-spell value)) (archive-need-extras need))))
+           (archive-call-given call)))
+
+(defun archive-add-edited (call name need)
+  "A result edited by hand is itself something to depend on."
+  (let ((own (archive-stored-p call name)))
+    (when (and own (archive-edited-digest (archive-call-archive call) name))
+      (push (format nil "~a edited ~a" name (archive-edited-digest (archive-call-archive call) name))
+            (archive-need-extras need)))))
+
+(defun archive-stored-p (call name)
+  (and (archive-call-archive call) (archive-path (archive-call-archive call))
+       (gethash name *core-publics*)
+       (archive-has-result (archive-call-archive call) name)))
+
+(defun archive-step-digest (call name)
+  "The digest `from' of the result NAME: what it was computed from."
+  (let ((need (archive-needs call name)))
+    (archive-from-digest (archive-call-archive call)
+                         (union '("parameters") (archive-need-keys need) :test #'equal)
+                         (sort (remove-if (lambda (extra) (eql 0 (search (format nil "~a edited " name) extra)))
+                                          (copy-list (archive-need-extras need)))
+                               #'string<))))
+
+;;; Values
+
+(defun archive-value (call name &optional (default nil default-given))
+  "The value of the quantity NAME, in this order: given, known, stored, by rule, a key, the default."
+  (multiple-value-bind (value given) (gethash name (archive-call-given call))
+    (if given
+        value
+        (multiple-value-bind (value known) (gethash name (archive-call-values call))
+          (if known
+              value
+              (multiple-value-bind (value found) (archive-find-value call name)
+                (cond (found (setf (gethash name (archive-call-values call)) value))
+                      (default-given default)
+                      (t (archive-missing call name)))))))))
+
+(defun archive-find-value (call name)
+  "Two values: the value of NAME from the archive or by a rule, and whether there is one."
+  (let ((rule (archive-rule call name)))
+    (cond ((equal name "description") (values (archive-structure call) t))
+          ((archive-stored-p call name) (archive-stored-value call name rule))
+          (rule (archive-rule-value call name rule))
+          (t (archive-key-value call name)))))
+
+(defun archive-key-value (call key)
+  (let ((equation (and (archive-call-archive call)
+                       (find (core-symbol key) (cdr (archive-description (archive-call-archive call)))
+                             :key (lambda (e) (and (archive-equation-p e) (cadr e)))))))
+    (values (and equation (caddr equation)) (and equation t))))
+
+(defun archive-structure (call)
+  "The description without the keys of the analysis."
+  (let ((hidden (mapcar #'core-symbol *archive-analysis-keys*)))
+    (cons (car (archive-description (archive-call-archive call)))
+          (remove-if (lambda (e) (member (cadr e) hidden)) (cdr (archive-description (archive-call-archive call)))))))
+
+(defun archive-stored-value (call name rule)
+  (multiple-value-bind (value state)
+      (archive-result (archive-call-archive call) name (archive-step-digest call name))
+    (ecase state
+      (:fresh (values (archive-in-full call value) t))
+      (:edited
+       (core-note "using [result ~a] as it was edited by hand" name)
+       (values (archive-in-full call value) t))
+      (:stale (core-note "[result ~a] was made from another description or other options; computing it again" name)
+       (archive-rule-value call name rule)))))
+
+(defun archive-rule-value (call name rule)
+  (cond ((core-rule-same rule) (values (archive-value call (core-rule-same rule)) t))
+        ((core-rule-record rule)
+         (values (archive-field (archive-value call (core-rule-record rule)) (core-rule-field rule)) t))
+        (t (values (archive-compute call name rule) t))))
+
+(defun archive-field (record field)
+  "A part of a record by its name, or of a list by its number."
+  (if (integerp field) (nth field record) ($core_get record (core-symbol field))))
+
+(defun archive-compute (call name rule)
+  "Applies the rule's pure function to its inputs; a public step is noted for saving."
+  (let* ((inputs (mapcar (lambda (input)
+                           (if (consp input)
+                               (archive-value call (car input) (cadr input))
+                               (archive-value call input)))
+                         (core-rule-inputs rule)))
+         (*core-checks* '()) (*core-left-out* '())
+         (began (get-internal-real-time)))
+    (core-require (core-rule-part rule))
+    (core-progress "computing ~a" name)
+    (let ((value (mfuncall-with (core-rule-function rule) inputs)))
+      (when (gethash name *core-publics*) (archive-note-step call name value))
+      (archive-report-time call name began)
+      value)))
+
+(defun mfuncall-with (function inputs)
+  (apply #'mfuncall function inputs))
+
+;;; Abbreviations are names for the person: results are saved and returned in them, and computed without them
+
+(defun archive-abbreviations (call)
+  (cdr (archive-value call "abbreviations" '((mlist simp)))))
+
+(defun archive-abbreviated (call value)
+  "VALUE in the archive's abbreviations."
+  (let ((abbreviations (archive-abbreviations call)))
+    (cond ((or (null abbreviations) (null *core-abbreviator*)) value)
+          (t (core-require (car *core-abbreviator*))
+             (mfuncall (cdr *core-abbreviator*) value (cons '(mlist simp) abbreviations))))))
+
+(defun archive-in-full (call value)
+  "VALUE without the archive's abbreviations, the last defined first."
+  (dolist (equation (reverse (archive-abbreviations call)) value)
+    (setq value ($substitute (caddr equation) (cadr equation) value))))
+
+(defun archive-report-time (call name began)
+  (when (eq (archive-option call "verbose" nil) t)
+    (core-note "~a took ~,3f s~@[; ~{~a~^; ~}~]" name
+               (/ (- (get-internal-real-time) began) (float internal-time-units-per-second 1d0))
+               *core-left-out*)))
+
+(defun archive-note-step (call name value)
+  (when (and (archive-call-archive call) (archive-path (archive-call-archive call)))
+    (push (make-archive-step :name name :value (archive-abbreviated call value) :from (archive-step-digest call name)
+                             :checks (reverse *core-checks*) :left-out (reverse *core-left-out*))
+          (archive-call-new call))))
+
+(defun archive-save-steps (call)
+  "Writes the sections of all steps computed in this call, unless save = false."
+  (when (and (archive-call-new call) (archive-option call "save" t))
+    (archive-save (archive-call-archive call)
+                  (mapcar (lambda (step)
+                            (list (archive-step-name step)
+                                  :value (archive-step-value step) :from (archive-step-from step)
+                                  :checks (archive-step-checks step) :left-out (archive-step-left-out step)))
+                          (reverse (archive-call-new call)))
+                  (archive-option call "result" nil))))

@@ -1,0 +1,28 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What the room of circuits can compute from a circuit archive, or from a potential typed in the session. Data only.
+;;; The kind "potential" stands for calls on a potential: P, [i1 = L1, ..], [u3 = C3, ..].
+
+(in-package :maxima)
+
+(core-public "PotentialParts" :kinds '("circuit"))
+(core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts" "description")
+
+(core-public "MixedPotential" :kinds '("circuit"))
+(core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential" "description")
+
+(core-public "StateEquations"
+  :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
+  :options '("solved" "matrices") :kinds '("circuit"))
+(core-rule "StateEquations" '("circuit") "circuits/state" "circuits_system_equations"
+  "description" "MixedPotential" '("solved" nil) '("matrices" nil))
+(core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
+  "MixedPotential" "inductances" "capacitances" '("solved" nil))
+
+(core-public "PotentialRate"
+  :forms '(("potential" "MixedPotential" "inductances" "capacitances")) :kinds '("circuit"))
+(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "description" "MixedPotential")
+(core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
+  "MixedPotential" "inductances" "capacitances")
+
+(core-public "CheckCircuit" :kinds '("circuit"))
+(core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "description")
