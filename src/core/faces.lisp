@@ -4,6 +4,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "core/help"))
+
 (defvar *core-faces* '() "Faces loaded: (name . version).")
 
 (defun core-load-registers ()
@@ -24,5 +27,6 @@
   "States a package: its name, its version, and the names of its public functions."
   (core-load-registers)
   (dolist (name names) (core-install name))
+  (core-help-install)
   (setq *core-faces* (acons face version (remove face *core-faces* :key #'car :test #'string=)))
   '$done)
