@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# tools/demo and tools/test need no make; these are their short names, and what is not run each time.
+
+.PHONY: demo test bench fuzz test-maxima doc
+
+demo:
+	@tools/demo
+
+test:
+	@tools/test
+
+# Times of the examples and of a start with the packages loaded.
+bench:
+	@bench/run
+
+# The mutations of the archives' texts of which the tests run a thousand, a hundred thousand times.
+fuzz:
+	@DYNARCH_MUTATIONS=100000 DYNARCH_TEST_LIMIT=7200 tools/test archive_mutations
+
+# Maxima's own test suite, with the packages loaded and without: the results must be the same.
+test-maxima:
+	@tools/test-maxima
+
+# The manual that `? name` shows, from its texinfo source.
+doc:
+	@doc/build

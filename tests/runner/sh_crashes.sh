@@ -1,0 +1,2 @@
+echo "1 passed, 0 failed"
+kill -SEGV $$

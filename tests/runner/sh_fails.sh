@@ -1,0 +1,3 @@
+echo "not ok: one case"
+echo "1 passed, 1 failed"
+exit 1
