@@ -1,0 +1,353 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Sums, products, powers and functions as Maxima simplifies them, for text that nobody vouches for: no step may hang, exhaust
+;;; the heap, ask, or depend on what the session assumes. Sizes of numbers are predicted before Maxima computes them; the signs
+;;; that Maxima's simplifier looks for (for sqrt(x^2), (2*x)^a) are those of archive-plain-sign, which factors nothing.
+;;; What is too costly to simplify stays as written. Look first at archive-simplified and archive-power.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/tokens"))
+
+(defvar *archive-reader* nil "The reader whose text is being simplified, for the place of an error.")
+(defvar *archive-position* 0 "Where the expression begins that is being simplified.")
+
+(defparameter *archive-factors* 4000 "The most factors in one product.")
+(defparameter *archive-weight* 20000 "The most digits that the numbers of one product may have together.")
+(defparameter *archive-root-order* 1000 "The largest order of a root of a number.")
+
+(defun archive-refuse (control &rest arguments)
+  "An error at the expression being simplified."
+  (apply #'archive-fault *archive-reader* *archive-position* control arguments))
+
+;; Maxima's simplifier with its own defaults and a plain judge of signs
+
+(defun archive-simplified (e)
+  "E, a form whose arguments are simplified, after Maxima's simplifier."
+  (simplifya e t))
+
+(defmacro archive-with-plain-simplifier (&body body)
+  "BODY, while Maxima simplifies with its default flags and judges signs by archive-plain-sign."
+  `(let (($simp t) ($numer nil) ($float nil) ($keepfloat nil) ($bftorat nil) ($radexpand t) ($logexpand t) ($domain '$real)
+         ($m1pbranch nil) ($%emode t) ($%enumer nil) ($demoivre nil) ($exponentialize nil) ($halfangles nil)
+         ($triginverses t) ($trigsign t) ($%piargs t) ($%iargs t) ($negdistrib t) ($expop 0) ($expon 0)
+         ($maxposex 1000) ($maxnegex 1000) ($logsimp t) ($lognegint nil) ($numer_pbranch nil) ($logarc nil)
+         ($ratsimpexpons nil) ($listarith t) ($doallmxops t) ($ratprint nil))
+     (archive-calling-plain-signs (lambda () ,@body))))
+
+(defun archive-calling-plain-signs (function)
+  "Calls FUNCTION while $sign, $csign and $asksign are archive-plain-sign."
+  (let ((sign (symbol-function '$sign)) (csign (symbol-function '$csign)) (asksign (symbol-function '$asksign)))
+    (unwind-protect
+         (progn
+           (setf (symbol-function '$sign) #'archive-plain-sign
+                 (symbol-function '$csign) #'archive-plain-sign
+                 (symbol-function '$asksign) #'archive-plain-sign)
+           (funcall function))
+      (setf (symbol-function '$sign) sign
+            (symbol-function '$csign) csign
+            (symbol-function '$asksign) asksign))))
+
+(defun archive-number-sign (number)
+  (cond ((zerop1 number) '$zero)
+        ((mnegp number) '$neg)
+        (t '$pos)))
+
+(defun archive-plain-sign (e)
+  "The sign of E as its numbers show it: $pos, $neg, $zero, $pz, $complex, or $pnz where they show nothing."
+  (cond ((mnump e) (archive-number-sign e))
+        ((member e '($%pi $%e $inf)) '$pos)
+        ((eq e '$%i) '$complex)
+        ((atom e) '$pnz)
+        (t (case (caar e)
+             (mexpt (archive-power-sign (cadr e) (caddr e)))
+             (mtimes (archive-product-sign (cdr e)))
+             (mabs '$pz)
+             (t '$pnz)))))
+
+(defun archive-power-sign (base exponent)
+  (let ((sign (archive-plain-sign base)))
+    (cond ((eq sign '$pos) (if (eq (archive-plain-sign exponent) '$complex) '$complex '$pos))
+          ((eq sign '$complex) '$complex)
+          ((and (integerp exponent) (evenp exponent) (plusp exponent)) '$pz)
+          (t '$pnz))))
+
+(defun archive-product-sign (factors)
+  (let ((signs (mapcar #'archive-plain-sign factors)))
+    (cond ((member '$complex signs) '$complex)
+          ((member '$pnz signs) '$pnz)
+          ((member '$pz signs) (if (oddp (count '$neg signs)) '$nz '$pz))
+          ((oddp (count '$neg signs)) '$neg)
+          (t '$pos))))
+
+;; Sizes
+
+(defun archive-integer-digits (n)
+  "About the number of decimal digits of the integer N."
+  (ceiling (* (integer-length n) 30103) 100000))
+
+(defun archive-digits (e)
+  "About the number of digits of E if it is a number, else 0."
+  (cond ((integerp e) (archive-integer-digits e))
+        ((ratnump e) (max (archive-integer-digits (cadr e)) (archive-integer-digits (caddr e))))
+        (t 0)))
+
+(defun archive-factors-of (e) (if (mtimesp e) (cdr e) (list e)))
+
+(defun archive-weight (e)
+  "Digits of the numbers in E that meet other numbers when E is multiplied: coefficient, exponents."
+  (loop for factor in (archive-factors-of e)
+        sum (cond ((mexptp factor) (archive-digits (caddr factor)))
+                  (t (archive-digits factor)))))
+
+(defun archive-number-part (e)
+  "The number in the sum or product E."
+  (if (and (consp e) (member (caar e) '(mplus mtimes)) (mnump (cadr e))) (cadr e) (if (mnump e) e 0)))
+
+(defun archive-ceiling (number)
+  "The least integer not below the size of NUMBER."
+  (if (integerp number) (abs number) (ceiling (abs (cadr number)) (caddr number))))
+
+(defun archive-check-power-size (base exponent)
+  "An error if the number BASE to the number in EXPONENT has too many digits."
+  (let ((part (archive-number-part exponent)))
+    (when (and (mnump base) (not (floatp base)) (not (floatp part))
+               (not (member base '(0 1 -1)))
+               (> (* (max 1 (archive-digits base)) (archive-ceiling part)) *archive-digits*))
+      (archive-refuse "a power with more than ~d digits" *archive-digits*))))
+
+(defun archive-check-number (number)
+  "NUMBER, or an error if it has too many digits."
+  (when (> (archive-digits number) *archive-weight*)
+    (archive-refuse "a number with more than ~d digits" *archive-weight*))
+  number)
+
+(defun archive-check-root (number order)
+  "An error if the root of NUMBER of this ORDER would take long: Maxima looks for the number's factors."
+  (when (> order *archive-root-order*)
+    (archive-refuse "a root of an order above ~d" *archive-root-order*))
+  (dolist (n (if (integerp number) (list number) (cdr number)))
+    (when (> (archive-integer-digits (archive-without-small-factors n)) 18)
+      (archive-refuse "a root of a number too large to be factored"))))
+
+(defun archive-without-small-factors (n)
+  "N without its prime factors below 100; N itself when it is very long."
+  (when (< (integer-length n) 4000)
+    (dolist (p '(2 3 5 7 11 13 17 19 23 29 31 37 41 43 47 53 59 61 67 71 73 79 83 89 97))
+      (loop while (and (/= n 0) (zerop (rem n p))) do (setq n (floor n p)))))
+  n)
+
+;; Sums
+
+(defun archive-sum (terms)
+  "The sum of simplified TERMS; halves are merged, so that a long sum takes n*log(n) steps."
+  (let ((n (length terms)))
+    (cond ((= n 1) (car terms))
+          ((<= n 4) (archive-check-sum (archive-simplified (list* '(mplus) terms))))
+          (t (let ((half (floor n 2)))
+               (archive-check-sum
+                (archive-simplified (list '(mplus)
+                                          (archive-sum (subseq terms 0 half))
+                                          (archive-sum (nthcdr half terms))))))))))
+
+(defun archive-check-sum (sum)
+  "SUM, or an error if one of its numbers has grown too long."
+  (dolist (term (if (mplusp sum) (cdr sum) (list sum)) sum)
+    (archive-check-number (archive-number-part term))))
+
+(defun archive-negative (e)
+  "-E"
+  (cond ((floatp e) (- e))
+        ((mnump e) (timesk -1 e))
+        (t (archive-simplified (list '(mtimes) -1 e)))))
+
+;; Products
+
+(defun archive-product (factors)
+  "The product of simplified FACTORS."
+  (cond ((null (cdr factors)) (car factors))
+        ((every #'mnump factors) (archive-number-product factors))
+        (t (archive-check-factors factors)
+           (archive-check-product (archive-simplified (list* '(mtimes) factors))))))
+
+(defun archive-number-product (numbers)
+  (reduce (lambda (a b) (archive-check-number (timesk a b))) numbers))
+
+(defun archive-check-factors (factors)
+  (when (or (> (length factors) *archive-factors*)
+            (> (loop for f in factors sum (length (archive-factors-of f))) *archive-factors*))
+    (archive-refuse "a product of more than ~d factors" *archive-factors*))
+  (when (> (reduce #'+ (mapcar #'archive-weight factors)) *archive-weight*)
+    (archive-refuse "a product whose numbers have more than ~d digits together" *archive-weight*))
+  (archive-check-common-root factors))
+
+(defun archive-check-common-root (factors)
+  "An error if roots of numbers in FACTORS would meet in a root of too high an order."
+  (let ((order 1))
+    (dolist (e factors)
+      (dolist (factor (archive-factors-of e))
+        (when (and (mexptp factor) (mnump (cadr factor)) (ratnump (caddr factor)))
+          (setq order (lcm order (caddr (caddr factor)))))))
+    (when (> order *archive-root-order*)
+      (archive-refuse "roots of numbers that meet in a root of an order above ~d" *archive-root-order*))))
+
+(defun archive-check-product (product)
+  "PRODUCT, or an error if a power of a number in it has grown too large."
+  (dolist (factor (archive-factors-of product) product)
+    (when (mexptp factor) (archive-check-power-size (cadr factor) (caddr factor)))))
+
+(defun archive-inverse (e)
+  "1/E"
+  (when (zerop1 e) (archive-refuse "division by zero"))
+  (if (floatp e)
+      (archive-double-or-refuse (lambda () (/ 1d0 e)))
+      (archive-power e -1)))
+
+(defun archive-quotient-of-numbers (a b)
+  "A/B for doubles and exact numbers: one rounding, not two."
+  (when (zerop1 b) (archive-refuse "division by zero"))
+  (archive-double-or-refuse (lambda () (/ (archive-double a) (archive-double b)))))
+
+(defun archive-double (number)
+  (cond ((floatp number) number)
+        (t (or (archive-nearest-double (if (integerp number) number (/ (cadr number) (caddr number))))
+               (archive-refuse "the number is too large for a double")))))
+
+(defun archive-double-or-refuse (function)
+  "The double that FUNCTION returns, or an error if the floating-point unit finds none."
+  (let ((double (ignore-errors (funcall function))))
+    (if (and (floatp double) (<= (abs double) most-positive-double-float))
+        double
+        (archive-refuse "a result outside the range of doubles"))))
+
+;; Powers
+
+(defun archive-power (base exponent)
+  "BASE^EXPONENT"
+  (cond ((zerop1 base) (archive-power-of-zero base exponent))
+        ((or (floatp base) (floatp exponent)) (archive-power-with-doubles base exponent))
+        ((eq base '$%e) (archive-exponential exponent))
+        ((mnump base) (archive-power-of-number base exponent))
+        ((and (mtimesp base) (integerp exponent))
+         (archive-product (mapcar (lambda (factor) (archive-power factor exponent)) (cdr base))))
+        ((and (mexptp base) (integerp exponent))
+         (archive-power (cadr base) (archive-product (list (caddr base) exponent))))
+        ((mtimesp base) (archive-power-of-product base exponent))
+        (t (archive-check-product (archive-simplified (list '(mexpt) base exponent))))))
+
+(defun archive-power-of-zero (base exponent)
+  (cond ((zerop1 exponent) (archive-refuse "0^0 has no value"))
+        ((not (mnump exponent)) (archive-refuse "0 to a power whose sign is not known"))
+        ((mnegp exponent) (archive-refuse "division by zero"))
+        (t base)))
+
+(defun archive-power-of-number (base exponent)
+  (archive-check-power-size base exponent)
+  (when (ratnump exponent) (archive-check-root base (caddr exponent)))
+  (archive-simplified (list '(mexpt) base exponent)))
+
+(defun archive-power-of-product (base exponent)
+  "A power of a product, whose numbers Maxima takes out: they are checked first."
+  (dolist (factor (cdr base))
+    (let ((number (if (mexptp factor) (cadr factor) factor)))
+      (when (mnump number)
+        (archive-check-power-size number exponent)
+        (when (ratnump exponent) (archive-check-root number (caddr exponent))))))
+  (archive-check-product (archive-simplified (list '(mexpt) base exponent))))
+
+(defun archive-power-with-doubles (base exponent)
+  "A power in a table of numerical results: of numbers a double, else as it stands."
+  (if (and (mnump base) (mnump exponent))
+      (archive-double-or-refuse (lambda () (expt (archive-double base)
+                                                 (if (integerp exponent) exponent (archive-double exponent)))))
+      (list '(mexpt simp) base exponent)))
+
+(defun archive-exponential (exponent)
+  "%e^EXPONENT; as it stands where Maxima's rules for logarithms and %i*%pi inside could take long."
+  (cond ((floatp exponent) (archive-double-or-refuse (lambda () (exp exponent))))
+        ((and (archive-contains-p exponent '%log) (not (archive-modest-p exponent)))
+         (list '(mexpt simp) '$%e exponent))
+        ((and (archive-contains-p exponent '$%i) (archive-contains-p exponent '$%pi) (not (archive-modest-p exponent)))
+         (list '(mexpt simp) '$%e exponent))
+        (t (archive-simplified (list '(mexpt) '$%e exponent)))))
+
+(defun archive-contains-p (e word)
+  "True when the symbol WORD is an atom or an operator in E."
+  (cond ((atom e) (eq e word))
+        ((eq (caar e) word) t)
+        (t (some (lambda (part) (archive-contains-p part word)) (cdr e)))))
+
+(defun archive-modest-p (e)
+  "True when E is so small that Maxima may expand it: few nodes, short numbers, small exponents."
+  (let ((nodes 60))
+    (labels ((visit (e)
+               (decf nodes)
+               (and (plusp nodes)
+                    (cond ((mnump e) (< (archive-digits e) 4))
+                          ((atom e) t)
+                          ((mexptp e) (and (visit (cadr e)) (archive-small-exponent-p (caddr e)) (visit (caddr e))))
+                          (t (every #'visit (cdr e)))))))
+      (visit e))))
+
+(defun archive-small-exponent-p (e)
+  (or (not (mnump e)) (<= (archive-ceiling e) 3)))
+
+;; Functions
+
+(defun archive-inert (operator arguments)
+  (list* (list operator 'simp) arguments))
+
+(defun archive-function-value (operator arguments)
+  "The function of Maxima's name OPERATOR at simplified ARGUMENTS."
+  (case operator
+    (%sqrt (archive-power (car arguments) '((rat simp) 1 2)))
+    (%exp (archive-power '$%e (car arguments)))
+    (mabs (archive-absolute-value (car arguments)))
+    (%signum (archive-signum (car arguments)))
+    (($max $min) (archive-extremum operator arguments))
+    ($atan2 (archive-atan2 arguments))
+    (%log (archive-logarithm (car arguments)))
+    (t (if (some #'floatp arguments)
+           (archive-inert operator arguments)
+           (archive-attempted (list* (list operator) arguments))))))
+
+(defun archive-attempted (form)
+  "FORM simplified; where Maxima finds no value (cot(0)) an error with its place."
+  (let ((value (core-attempt (lambda () (archive-simplified form)))))
+    (if value
+        (car value)
+        (archive-refuse "a function has no value here"))))
+
+(defun archive-absolute-value (e)
+  (case (archive-plain-sign e)
+    (($pos $pz $zero) e)
+    ($neg (archive-negative e))
+    (t (archive-inert 'mabs (list (archive-without-sign e))))))
+
+(defun archive-without-sign (e)
+  "E or -E, the one that a person would write."
+  (if (and (mtimesp e) (mnegp (cadr e))) (archive-negative e) e))
+
+(defun archive-signum (e)
+  (case (archive-plain-sign e)
+    ($pos 1)
+    ($neg -1)
+    ($zero e)
+    (t (archive-inert '%signum (list e)))))
+
+(defun archive-extremum (operator arguments)
+  (if (every #'mnump arguments)
+      (reduce (lambda (a b) (if (eq (archive-number-sign (addk a (timesk -1 b))) (if (eq operator '$max) '$neg '$pos)) b a))
+              arguments)
+      (archive-inert operator arguments)))
+
+(defun archive-atan2 (arguments)
+  (when (every #'zerop1 arguments) (archive-refuse "atan2(0, 0) has no value"))
+  (if (and (every #'mnump arguments) (every #'archive-modest-p arguments) (notany #'floatp arguments))
+      (archive-attempted (list* '($atan2) arguments))
+      (archive-inert '$atan2 arguments)))
+
+(defun archive-logarithm (e)
+  (cond ((zerop1 e) (archive-refuse "log(0) has no value"))
+        ((floatp e) (archive-inert '%log (list e)))
+        (t (archive-attempted (list '(%log) e)))))
