@@ -34,7 +34,7 @@
 
 ;; What an expression is
 
-(defun archive-kind (e)
+(defun archive-form-kind (e)
   "What E is: :number-like, :relation, :list, :matrix, :string or :truth-value."
   (cond ((stringp e) :string)
         ((member e '(t nil)) :truth-value)
@@ -52,7 +52,7 @@
 
 (defun archive-expect-kind (reader position e expected &rest kinds)
   "E if it is of one of KINDS, else an error at POSITION that names what was EXPECTED."
-  (let ((kind (archive-kind e)))
+  (let ((kind (archive-form-kind e)))
     (unless (member kind kinds)
       (archive-fault reader position "found ~a, expected ~a~a" (archive-kind-shown kind) expected
                      (if (eq kind :relation) "; = and comparisons stand in lists" "")))
@@ -191,9 +191,9 @@
 
 (defun archive-over-elements (function e)
   "FUNCTION of E, or of each element of a list or matrix E."
-  (if (member (archive-kind e) '(:list :matrix))
+  (if (member (archive-form-kind e) '(:list :matrix))
       (cons (car e) (mapcar (lambda (part)
-                              (unless (member (archive-kind part) '(:scalar :list :matrix))
+                              (unless (member (archive-form-kind part) '(:scalar :list :matrix))
                                 (archive-refuse "arithmetic with a list that holds more than expressions"))
                               (archive-over-elements function part))
                             (cdr e)))
@@ -208,7 +208,7 @@
   (loop for place in places for factor in factors
         unless (archive-divisor-p factor)
           do (archive-expect-kind reader place factor "an expression" :scalar :list :matrix))
-  (let ((composite (remove-if-not (lambda (f) (member (archive-kind f) '(:list :matrix))) factors)))
+  (let ((composite (remove-if-not (lambda (f) (member (archive-form-kind f) '(:list :matrix))) factors)))
     (when (cdr composite)
       (archive-fault reader (car places) "a product of lists or matrices; write it out"))
     (archive-computed (reader (car places))
@@ -236,16 +236,16 @@
   (loop for place in places for term in terms
         do (archive-expect-kind reader place term "an expression" :scalar :list :matrix))
   (archive-computed (reader (car places))
-    (if (every (lambda (term) (eq (archive-kind term) :scalar)) terms)
+    (if (every (lambda (term) (eq (archive-form-kind term) :scalar)) terms)
         (archive-sum terms)
         (archive-add-elements terms))))
 
 (defun archive-add-elements (terms)
-  (if (every (lambda (term) (eq (archive-kind term) :scalar)) terms)
+  (if (every (lambda (term) (eq (archive-form-kind term) :scalar)) terms)
       (archive-sum terms)
       (let ((first (car terms)))
-        (unless (and (member (archive-kind first) '(:list :matrix))
-                     (every (lambda (term) (and (eq (archive-kind term) (archive-kind first))
+        (unless (and (member (archive-form-kind first) '(:list :matrix))
+                     (every (lambda (term) (and (eq (archive-form-kind term) (archive-form-kind first))
                                                 (= (length term) (length first))))
                             terms))
           (archive-refuse "a sum of lists or matrices that differ in shape"))
@@ -274,7 +274,7 @@
 (defun archive-close! (reader opened kind sign)
   "Passes over the bracket that closes the one at OPENED."
   (unless (eq (reader-kind reader) kind)
-    (multiple-value-bind (line column) (archive-place reader opened)
+    (multiple-value-bind (line column) (archive-reader-place reader opened)
       (archive-fault reader (reader-from reader)
                      "found ~a, expected an operator, a comma or ~a (the bracket opened at line ~d, column ~d)~a"
                      (archive-token-shown reader) sign line column
@@ -407,14 +407,14 @@
   (archive-expect-count reader name from arguments 2)
   (destructuring-bind (e where) arguments
     (archive-expect-scalar reader (car places) e)
-    (unless (or (archive-equation-p where)
-                (and (eq (archive-kind where) :list) (cdr where) (every #'archive-equation-p (cdr where))))
+    (unless (or (archive-substitution-p where)
+                (and (eq (archive-form-kind where) :list) (cdr where) (every #'archive-substitution-p (cdr where))))
       (archive-fault reader (cadr places) "expected name = value, or a list of these, as second argument of at"))
     (archive-inert '%at arguments)))
 
-(defun archive-equation-p (e)
+(defun archive-substitution-p (e)
   "True for name = value, where the name may be a derivative."
-  (and (consp e) (eq (caar e) 'mequal) (eq (archive-kind (caddr e)) :scalar)
+  (and (consp e) (eq (caar e) 'mequal) (eq (archive-form-kind (caddr e)) :scalar)
        (or (symbolp (cadr e)) (and (consp (cadr e)) (eq (caar (cadr e)) '%derivative)))))
 
 (defun archive-make-matrix (reader name from arguments places)
@@ -424,7 +424,7 @@
            (unless (and (cdr row) (= (length row) (length (car arguments))))
              (archive-fault reader place "a row of ~d elements in a matrix whose first row has ~d"
                             (length (cdr row)) (length (cdar arguments))))
-           (unless (every (lambda (e) (eq (archive-kind e) :scalar)) (cdr row))
+           (unless (every (lambda (e) (eq (archive-form-kind e) :scalar)) (cdr row))
              (archive-fault reader place "the elements of a matrix are expressions")))
   (archive-inert '$matrix arguments))
 
@@ -447,9 +447,9 @@
   "piecewise([condition, value], ...)"
   (declare (ignore name from))
   (loop for case in arguments for place in places
-        unless (and (eq (archive-kind case) :list) (= (length case) 3)
-                    (member (archive-kind (cadr case)) '(:relation :truth-value))
-                    (eq (archive-kind (caddr case)) :scalar))
+        unless (and (eq (archive-form-kind case) :list) (= (length case) 3)
+                    (member (archive-form-kind (cadr case)) '(:relation :truth-value))
+                    (eq (archive-form-kind (caddr case)) :scalar))
           do (archive-fault reader place "expected [condition, value] in piecewise"))
   (archive-inert '$piecewise arguments))
 
@@ -476,7 +476,7 @@ have, as a list of (name line column). DOUBLES: decimals are doubles. RELATIONS:
          (value (archive-parse-reader! reader :relations relations)))
     (values value
             (loop for (name . position) in (reverse (reader-calls reader))
-                  collect (cons name (multiple-value-list (archive-place reader position)))))))
+                  collect (cons name (multiple-value-list (archive-reader-place reader position)))))))
 
 (defun archive-maxima-function-p (name)
   "True when Maxima, not the person, has a function or operator called NAME."

@@ -41,7 +41,7 @@
   #+sbcl (- to from)
   #-sbcl (count-if-not (lambda (c) (= 2 (ash (char-code c) -6))) text :start from :end to))
 
-(defun archive-place (reader position)
+(defun archive-reader-place (reader position)
   "Two values: line and column of POSITION."
   (let* ((text (reader-text reader))
          (start (reader-start reader))
@@ -61,7 +61,7 @@
 
 (defun archive-fault (reader position control &rest arguments)
   "An error at POSITION of what READER reads."
-  (multiple-value-bind (line column) (archive-place reader position)
+  (multiple-value-bind (line column) (archive-reader-place reader position)
     (apply #'archive-fault-at (reader-file reader) line column control arguments)))
 
 (defun archive-shown (text)
