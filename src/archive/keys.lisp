@@ -223,7 +223,7 @@
        (string/= (archive-key-name key) "bodies")))
 
 (defun archive-option-keys (kind)
-  "The keys of archives of KIND that a call may overrule."
+  "The keys that an option of a call may overrule in archives of KIND."
   (remove-if-not #'archive-overrulable-p (archive-keys kind "system")))
 
 (defun archive-type-phrase (type)

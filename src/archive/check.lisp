@@ -1,0 +1,57 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The entrance to descriptions: a file, a text or a list becomes a checked archive; one answer of the dialog and one
+;;; option of a call are checked by the same table.
+;;; Look first at archive-open and archive-check-list.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/description" "archive/names" "archive/entries"))
+
+(defun archive-check-groups (path text parts groups)
+  "The archive made of GROUPS, with a warning on names that nothing declares."
+  (archive-with-places
+   path groups
+   (lambda ()
+     (let* ((description (archive-checked groups))
+            (kind (core-spelling ($core_get description '$kind))))
+       (archive-warn-free-symbols kind description)
+       (make-archive :path path :text text :parts parts :groups groups :kind kind :description description)))))
+
+(defun archive-of-text (path text)
+  "The checked archive of TEXT, the content of the file PATH."
+  (let ((split (archive-split text (archive-file-name path))))
+    (archive-check-groups path text split (archive-groups-of-split split (archive-file-name path)))))
+
+(defun archive-open (path)
+  "The checked archive in the file PATH."
+  (archive-of-text path (archive-read-bytes path)))
+
+(defun archive-check-list (list)
+  "The checked archive that a description list is; it has no file."
+  (archive-check-groups nil nil nil (archive-groups-of-list list)))
+
+;;; One answer
+
+(defun archive-trouble (function)
+  "The text of the error in which FUNCTION ends, or nil."
+  (let ((*core-function* nil))
+    (nth-value 1 (core-caught function))))
+
+(defun archive-check-value (key text)
+  "The checked value of KEY that TEXT spells; an error otherwise."
+  (multiple-value-bind (value trouble) (archive-typed (archive-key-type key) (archive-parse-value text))
+    (when trouble (core-error "~a" (archive-mismatch key value trouble)))
+    value))
+
+(defun archive-value-trouble (key text)
+  "What is wrong with TEXT as a value of KEY, or nil."
+  (archive-trouble (lambda () (archive-check-value key text))))
+
+(defun archive-row-trouble (section text)
+  "What is wrong with TEXT as a row of SECTION, or nil."
+  (archive-trouble (lambda () (archive-split (format nil "[~a]~%~a~%" section text) nil))))
+
+(defun archive-text-trouble (text)
+  "What is wrong with TEXT as an archive, or nil."
+  (archive-trouble (lambda () (archive-of-text "the description" text))))

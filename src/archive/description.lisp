@@ -1,0 +1,269 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; From groups of statements to a checked description: kinds, sections, keys, types, defaults.
+;;; An unknown key is a warning and stays in the file; a required one that is missing is an error, which names an
+;;; unknown one that may have been meant.
+;;; Look first at archive-checked, at the end.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/groups" "archive/parser" "archive/speller"))
+
+;;; Keys of one section
+
+(defun archive-key-names (kind word)
+  (mapcar #'archive-key-name (archive-keys kind word)))
+
+(defun archive-table-word (section)
+  "The name of the section of the table for the group SECTION."
+  (if (string= section "archive") "top" (archive-section-word section)))
+
+(defun archive-check-repeated (group)
+  "A key stands once in its section."
+  (let ((seen '()))
+    (dolist (statement (archive-group-statements group))
+      (let* ((key (archive-statement-key statement)) (first (find key seen :key #'archive-statement-key :test #'equal)))
+        (when (and key first)
+          (core-fault (archive-group-section group) key "~a stands twice~a; leave one of them out" key
+                      (if (archive-statement-line first)
+                          (format nil ", in line ~d and in line ~d" (archive-statement-line first)
+                                  (archive-statement-line statement))
+                          "")))
+        (push statement seen)))))
+
+(defun archive-unknown-statements (kind group)
+  (let ((known (archive-key-names kind (archive-table-word (archive-group-section group)))))
+    (remove-if (lambda (statement) (member (archive-statement-key statement) known :test #'equal))
+               (archive-group-statements group))))
+
+(defun archive-unknown-advice (kind word name)
+  "What to tell of the unknown key NAME."
+  (let ((near (archive-nearest name (archive-key-names kind word)))
+        (kinds (archive-key-kinds-of word name)))
+    (cond (kinds (format nil "it is a key of the kind~:[~;s~] ~{~a~^, ~}" (cdr kinds) kinds))
+          (near (format nil "did you mean ~a?" near))
+          (t "it is not read"))))
+
+(defun archive-warn-unknown (kind group)
+  (dolist (statement (archive-unknown-statements kind group))
+    (core-warn "~a~a: unknown key ~a; ~a" (archive-group-section group) (archive-statement-place statement)
+               (archive-statement-key statement)
+               (archive-unknown-advice kind (archive-table-word (archive-group-section group))
+                                       (archive-statement-key statement)))))
+
+(defun archive-fault-missing (kind group key reason)
+  "The required KEY is missing; an unknown key near to it is named."
+  (let* ((word (archive-table-word (archive-group-section group)))
+         (names (archive-key-names kind word))
+         (meant (find-if (lambda (statement)
+                           (equal (archive-key-name key) (archive-nearest (archive-statement-key statement) names)))
+                         (archive-unknown-statements kind group))))
+    (core-fault (archive-group-section group) nil "the key ~a is missing~a; ~a" (archive-key-name key) reason
+                (if meant
+                    (format nil "is ~a~a meant for it?" (archive-statement-key meant) (archive-statement-place meant))
+                    (format nil "give ~a = ~a" (archive-key-name key) (archive-type-phrase (archive-key-type key)))))))
+
+(defun archive-given-p (group name)
+  (and (archive-find-statement group name) t))
+
+(defun archive-given-word (group name)
+  "The value of the key NAME as text, or nil."
+  (let ((statement (archive-find-statement group name)))
+    (and statement (symbolp (archive-statement-value statement)) (archive-statement-value statement)
+         (core-spelling (archive-statement-value statement)))))
+
+(defun archive-missing-reason (key group)
+  "Why KEY, which is absent, must be there, or nil: \"\", or the key that asks for it."
+  (let ((default (archive-key-default key)))
+    (cond ((eq default :required) "")
+          ((atom default) nil)
+          ((eq (first default) :when)
+           (and (equal (archive-given-word group (second default)) (third default))
+                (format nil ", which ~a = ~a needs" (second default) (third default))))
+          ((archive-given-p group (second default)) nil)
+          (t (format nil ", and so is ~a" (second default))))))
+
+(defun archive-default-value (key)
+  "The default of KEY as a checked value."
+  (values (archive-typed (archive-key-type key) (archive-parse-value (archive-default key)))))
+
+(defun archive-converted (section key value)
+  (multiple-value-bind (converted trouble) (archive-typed (archive-key-type key) value)
+    (if trouble
+        (core-fault section (archive-key-name key) "~a" (archive-mismatch key value trouble))
+        converted)))
+
+(defun archive-key-equation (kind group key)
+  "The equation key = value of the description, in a list; nil where the key is absent."
+  (let* ((name (archive-key-name key))
+         (statement (archive-find-statement group name))
+         (reason (and (not statement) (archive-missing-reason key group))))
+    (cond (statement
+           (list (archive-equation (core-symbol name)
+                                   (archive-converted (archive-group-section group) key (archive-statement-value statement)))))
+          (reason (archive-fault-missing kind group key reason))
+          ((archive-default key)
+           (list (archive-equation (core-symbol name) (archive-default-value key))))
+          (t nil))))
+
+(defun archive-checked-keys (kind group)
+  "The equations of GROUP in the order of the table."
+  (archive-check-repeated group)
+  (archive-warn-unknown kind group)
+  (loop for key in (archive-keys kind (archive-table-word (archive-group-section group)))
+        append (archive-key-equation kind group key)))
+
+;;; Kind and version
+
+(defun archive-checked-kind (groups)
+  "The kind of system; the version is looked at before."
+  (let ((top (or (archive-find-group groups "archive") (make-archive-group :section "archive"))))
+    (archive-check-repeated top)
+    (archive-key-equation nil top (archive-find-key nil "top" "dynarch"))
+    (core-spelling (third (first (archive-key-equation nil top (archive-find-key nil "top" "kind")))))))
+
+;;; Which sections there are
+
+(defun archive-section-number (section)
+  "k of \"body k\", or nil."
+  (let* ((blank (position #\Space section)) (digits (and blank (subseq section (1+ blank)))))
+    (and digits (plusp (length digits)) (every #'digit-char-p digits) (char/= (char digits 0) #\0)
+         (< (length digits) 8) (parse-integer digits))))
+
+(defun archive-section-row-of (kind section)
+  "The row of *archive-sections* for the group SECTION of an archive of KIND, or nil."
+  (find (archive-table-word section) (archive-sections-of kind) :key #'first :test #'string=))
+
+(defun archive-section-form-p (row section)
+  "Whether SECTION is named as ROW of the table says: \"body 2\", \"frame orbit\", \"branches\"."
+  (let ((rest (subseq section (min (length section) (length (archive-section-word section))))))
+    (ecase (third row)
+      ((:one :rows) (string= rest ""))
+      ((:counted :numbered) (and (archive-section-number section) t))
+      (:named (and (> (length rest) 1) (alpha-char-p (char rest 1))
+                   (every (lambda (c) (or (alphanumericp c) (char= c #\_))) (subseq rest 1)))))))
+
+(defun archive-warn-section (kind group)
+  (let* ((section (archive-group-section group))
+         (row (archive-section-row (archive-section-word section)))
+         (near (archive-nearest (archive-section-word section) (mapcar #'first (archive-sections-of kind)))))
+    (core-warn "~@[line ~d: ~]unknown section [~a]; ~a" (archive-group-line group) section
+               (cond ((and row (archive-section-row-of kind section)) (format nil "it is written [~a]" (archive-heading row)))
+                     (row (format nil "it belongs to the kind ~{~a~^, ~}" (second row)))
+                     (near (format nil "did you mean [~a]?" (archive-heading (archive-section-row near))))
+                     (t "it is not read")))))
+
+(defun archive-known-groups (kind groups)
+  "The groups that an archive of KIND has; a warning for each other one."
+  (remove-if-not (lambda (group)
+                   (let ((row (archive-section-row-of kind (archive-group-section group))))
+                     (or (and row (archive-section-form-p row (archive-group-section group)))
+                         (progn (archive-warn-section kind group) nil))))
+                 groups))
+
+(defun archive-check-repeated-sections (groups)
+  (loop for (group . rest) on groups
+        do (let ((again (archive-find-group rest (archive-group-section group))))
+             (when again
+               (core-error "section [~a] stands twice~@[, in line ~d~]~@[ and in line ~d~]; leave one of them out"
+                           (archive-group-section group) (archive-group-line group) (archive-group-line again))))))
+
+(defun archive-groups-like (groups word)
+  (remove-if-not (lambda (group) (string= word (archive-section-word (archive-group-section group)))) groups))
+
+(defun archive-counted-groups (groups all-groups word count)
+  "The groups \"WORD 1\" to \"WORD COUNT\", in this order; one too few or too many is an error."
+  (dolist (group (archive-groups-like groups word))
+    (when (> (archive-section-number (archive-group-section group)) count)
+      (core-fault (archive-group-section group) nil "there are ~d bodies; set bodies = ~d, or leave the section out"
+                  count (archive-section-number (archive-group-section group)))))
+  (loop for k from 1 to count
+        collect (let ((section (format nil "~a ~d" word k)))
+                  (or (archive-find-group groups section)
+                      (archive-fault-section section count all-groups)))))
+
+(defun archive-fault-section (section count groups)
+  "The section that BODIES asks for is missing; a misspelt one is named."
+  (let ((meant (archive-nearest section (mapcar #'archive-group-section groups))))
+    (core-fault "system" "bodies" "bodies = ~d, and section [~a] is missing~@[; is [~a] meant for it?~]" count section
+                (and meant (not (archive-section-row (archive-section-word meant))) meant))))
+
+;;; Rows of a circuit
+
+(defun archive-row-value (group k statement)
+  (let* ((row (archive-statement-value statement))
+         (fields (if (archive-equation-p row) (third row) row)))
+    (unless (archive-list-p fields)
+      (core-fault (archive-group-section group) k "row ~d must be a list such as [1, 2, L, L1, i1], found ~a" k
+                  (archive-value-shown row)))
+    row))
+
+(defun archive-rows-equation (section group)
+  (archive-equation (core-symbol section)
+                    (archive-list (and group
+                                       (loop for statement in (archive-group-statements group)
+                                             for k from 1
+                                             collect (archive-row-value group k statement))))))
+
+(defun archive-graph-group (rows)
+  "The branches of a graph as a group."
+  (make-archive-group :section "branches" :from-graph t
+                      :statements (mapcar (lambda (row) (make-archive-statement :value row)) (cdr rows))))
+
+(defun archive-without-graph (equations sign-given)
+  "The equations of [system] with `graph' taken out; it implies sign = generator."
+  (loop for equation in equations
+        unless (eq (second equation) '$graph)
+          collect (if (and (eq (second equation) '$sign) (not sign-given))
+                      (archive-equation '$sign '$generator)
+                      equation)))
+
+(defun archive-circuit (groups system)
+  "Two values: the equations of [system] without graph, and the group of the branches, from [branches] or from graph."
+  (let ((graph (find '$graph system :key #'second))
+        (branches (archive-find-group groups "branches"))
+        (given (archive-find-group groups "system")))
+    (cond ((and graph branches)
+           (core-fault "system" "graph" "the branches stand twice, in graph and in [branches]; leave one of them out"))
+          (graph (values (archive-without-graph system (archive-given-p given "sign")) (archive-graph-group (third graph))))
+          (branches (values system branches))
+          (t (core-fault "system" nil "a circuit has branches; add a section [branches], or the key graph")))))
+
+(defun archive-circuit-equations (groups system)
+  (multiple-value-bind (equations branches) (archive-circuit groups system)
+    (append equations
+            (list (archive-rows-equation "branches" branches)
+                  (archive-rows-equation "couplings" (archive-find-group groups "couplings"))
+                  (archive-rows-equation "transformers" (archive-find-group groups "transformers"))))))
+
+;;; The whole
+
+(defun archive-section-equation (kind group)
+  "\"body 1\" = [parent = 0, ...]"
+  (archive-equation (archive-group-section group) (archive-list (archive-checked-keys kind group))))
+
+(defun archive-mechanical-equations (kind groups all-groups system)
+  (let* ((count (third (find '$bodies system :key #'second)))
+         (sections (append (archive-counted-groups groups all-groups "body" count)
+                           (loop for word in '("frame" "spring" "force" "torque")
+                                 append (archive-groups-like groups word)))))
+    (append system (mapcar (lambda (group) (archive-section-equation kind group)) sections))))
+
+(defun archive-system-group (groups)
+  (or (archive-find-group groups "system")
+      (core-error "there is no section [system]~@[; is [~a] meant for it?~]"
+                  (archive-nearest "system" (mapcar #'archive-group-section groups)))))
+
+(defun archive-checked (groups)
+  "The checked description of GROUPS."
+  (let ((kind (archive-checked-kind groups)))
+    (archive-check-repeated-sections groups)
+    (let* ((known (archive-known-groups kind groups))
+           (top (archive-find-group known "archive"))
+           (system (archive-checked-keys kind (archive-system-group groups)))
+           (head (remove '$dynarch (archive-checked-keys kind top) :key #'second)))
+      (archive-list
+       (append head
+               (cond ((string= kind "mechanical") (archive-mechanical-equations kind known groups system))
+                     ((string= kind "circuit") (archive-circuit-equations known system))
+                     (t system)))))))

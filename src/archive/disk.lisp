@@ -1,0 +1,171 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Files as the writer needs them: names in which no character is special, a rename that replaces, a lock, bytes that
+;;; have reached the disk. A file is never changed in place: a whole new one takes its name, or nothing happens.
+;;; Look first at archive-replace-file.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/digest"))
+
+;; Calls of the C library
+
+#+sbcl
+(defmacro archive-c-call (name result &rest arguments)
+  "Calls the C function NAME; ARGUMENTS are (type value)."
+  `(sb-alien:alien-funcall
+    (sb-alien:extern-alien ,name (function ,result ,@(mapcar #'first arguments)))
+    ,@(mapcar #'second arguments)))
+
+(defun archive-rename (from to)
+  "Gives the file FROM the name TO, replacing what is there; true when done."
+  #+sbcl (zerop (archive-c-call "rename" sb-alien:int (sb-alien:c-string from) (sb-alien:c-string to)))
+  #+gcl (si::rename from to)
+  #-(or sbcl gcl) (rename-file from (make-pathname :type :unspecific :defaults to)))
+
+(defun archive-unlink (name)
+  #+sbcl (archive-c-call "unlink" sb-alien:int (sb-alien:c-string name))
+  #+gcl (si::unlink name)
+  #-(or sbcl gcl) (delete-file name))
+
+(defun archive-may-write-p (name)
+  "Whether the file NAME may be written as far as its mode says."
+  #+sbcl (zerop (archive-c-call "access" sb-alien:int (sb-alien:c-string name) (sb-alien:int 2)))
+  #-sbcl (progn name t))
+
+(defun archive-copy-mode (from to)
+  "Gives the file TO the permissions and, where it may be, the owner of FROM."
+  #+sbcl (multiple-value-bind (found device inode mode links uid gid) (sb-unix:unix-stat from)
+           (declare (ignore device inode links))
+           (when found
+             (archive-c-call "chown" sb-alien:int (sb-alien:c-string to) (sb-alien:unsigned-int uid)
+                             (sb-alien:unsigned-int gid))
+             (archive-c-call "chmod" sb-alien:int (sb-alien:c-string to) (sb-alien:unsigned-int (logand mode #o7777)))))
+  #-sbcl (progn from to nil))
+
+(defun archive-sync (stream)
+  "What was written to STREAM is on the disk when this returns."
+  (finish-output stream)
+  #+sbcl (unless (zerop (archive-c-call "fsync" sb-alien:int (sb-alien:int (sb-sys:fd-stream-fd stream))))
+           (error "the disk does not take it")))
+
+(defun archive-process-number ()
+  #+sbcl (archive-c-call "getpid" sb-alien:int)
+  #+gcl (si::getpid)
+  #-(or sbcl gcl) (get-universal-time))
+
+(defun archive-ignore-size-limit ()
+  "A file-size limit becomes an error of the stream; its signal, SIGXFSZ, would end SBCL."
+  #+sbcl (sb-sys:enable-interrupt 25 :ignore))
+
+;; Names
+
+(defun archive-native (name)
+  "A pathname for NAME in which no character is special."
+  #+sbcl (sb-ext:parse-native-namestring name)
+  #-sbcl (pathname name))
+
+(defun archive-native-name (pathname)
+  #+sbcl (sb-ext:native-namestring pathname)
+  #-sbcl (namestring pathname))
+
+(defun archive-folder (name)
+  "The folder of the file NAME, with its last slash; \"\" for the working folder."
+  (subseq name 0 (1+ (or (position #\/ name :from-end t) -1))))
+
+(defun archive-special-p (name)
+  "Whether NAME has characters that GCL takes for a pattern."
+  #+sbcl (progn name nil)
+  #-sbcl (some (lambda (c) (find c "[*?\\")) name))
+
+(defun archive-followed (name)
+  "The file that NAME is a link to, or NAME."
+  (if (archive-special-p name)
+      name
+      (let ((true (ignore-errors (probe-file (archive-native name)))))
+        (if true (archive-native-name true) name))))
+
+;; A lock on the folder, so that two writers take turns; the system releases it when a process dies
+
+(defconstant archive-lock-tries 200)
+
+(defun archive-lock (folder)
+  "A handle of the lock on FOLDER, or nil where the system has none or another keeps it for ten seconds."
+  #+sbcl (let ((handle (archive-c-call "open" sb-alien:int (sb-alien:c-string (if (string= folder "") "." folder))
+                                       (sb-alien:int #o2000000))))
+           (unless (minusp handle)
+             (loop repeat archive-lock-tries
+                   until (zerop (archive-c-call "flock" sb-alien:int (sb-alien:int handle) (sb-alien:int 6)))
+                   do (sleep 0.05))
+             handle))
+  #-sbcl (progn folder nil))
+
+(defun archive-unlock (handle)
+  #+sbcl (when handle (archive-c-call "close" sb-alien:int (sb-alien:int handle)))
+  #-sbcl handle)
+
+(defmacro archive-with-lock ((name) &body body)
+  "BODY while no other writer of ours works in the folder of the file NAME."
+  (let ((handle (gensym)))
+    `(let ((,handle (archive-lock (archive-folder ,name))))
+       (unwind-protect (progn ,@body)
+         (archive-unlock ,handle)))))
+
+;; Replacing a file
+
+(defvar *archive-drafts* 0 "Drafts written so far.")
+
+(defun archive-draft-name (name)
+  "A name for a draft in the folder of NAME that no other process uses."
+  (format nil "~a.dynarch-~d-~d" (archive-folder name) (archive-process-number) (incf *archive-drafts*)))
+
+(defun archive-write-bytes (name bytes)
+  "Writes BYTES to the new file NAME and on to the disk."
+  (with-open-file (out (archive-native name) :direction :output :element-type '(unsigned-byte 8)
+                                             :if-exists :error :if-does-not-exist :create)
+    (write-sequence bytes out)
+    (archive-sync out)))
+
+(defun archive-file-bytes (name)
+  "The bytes of the file NAME."
+  (with-open-file (in (archive-native name) :element-type '(unsigned-byte 8))
+    (let ((bytes (make-array (file-length in) :element-type '(unsigned-byte 8))))
+      (read-sequence bytes in)
+      bytes)))
+
+(defun archive-write-draft (draft bytes)
+  "Writes BYTES to DRAFT and makes sure that they arrived: not every Lisp reports a full disk."
+  (archive-write-bytes draft bytes)
+  (unless (equalp bytes (archive-file-bytes draft))
+    (error "the disk is full")))
+
+(defun archive-in-folder (name function)
+  "Calls FUNCTION with a name for the file NAME that this Lisp can open."
+  #+gcl (if (archive-special-p (archive-folder name))
+            (let ((back (namestring (truename "."))))
+              (unwind-protect (progn (si::chdir (archive-folder name))
+                                     (funcall function (subseq name (length (archive-folder name)))))
+                (si::chdir back)))
+            (funcall function name))
+  #-gcl (funcall function name))
+
+(defun archive-replace-file (name bytes)
+  "The file NAME has BYTES as its content afterwards, or is what it was and an error says why."
+  (archive-ignore-size-limit)
+  (when (and (probe-file (archive-native (archive-folder name))) (archive-exists-p name) (not (archive-may-write-p name)))
+    (error "it is read-only"))
+  (archive-in-folder
+   name
+   (lambda (name)
+     (let ((draft (archive-draft-name name)) (done nil))
+       (unwind-protect
+            (progn
+              (archive-write-draft draft bytes)
+              (archive-copy-mode name draft)
+              (unless (archive-rename draft name) (error "the new file cannot take its name"))
+              (setf done t))
+         (unless done (archive-unlink draft)))))))
+
+(defun archive-exists-p (name)
+  #+gcl (and (si::stat name) t)
+  #-gcl (and (probe-file (archive-native name)) t))

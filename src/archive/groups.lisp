@@ -1,0 +1,143 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; A description before it is checked: groups of statements, from the sections of a file or from a description list.
+;;; A group is a section, a statement one key with its value, or one row; both know their lines where there is a file.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/keys" "archive/types"))
+
+(defstruct archive
+  path         ; as the user gave it; nil for a description list
+  text         ; the file's text
+  parts        ; its sections, as archive-split returns them
+  kind         ; "mechanical", ...
+  groups       ; list of archive-group
+  description) ; the checked Maxima list
+
+(defstruct archive-group
+  section      ; "archive" (before the first header), "system", "body 2", ...
+  line         ; of the header; nil without file
+  statements
+  from-graph)  ; t for branches that came from the key graph
+
+(defstruct archive-statement
+  key          ; text; nil for a row
+  value
+  line)
+
+;;; Places
+
+(defun archive-file-name (path)
+  (subseq path (1+ (or (position #\/ path :from-end t) -1))))
+
+(defun archive-find-group (groups section)
+  (find section groups :key #'archive-group-section :test #'string=))
+
+(defun archive-find-statement (group key)
+  (and group (find key (archive-group-statements group) :key #'archive-statement-key :test #'equal)))
+
+(defun archive-line (groups section key)
+  "The line of KEY (a name, or the number of a row) in SECTION, or of the section's header, or nil."
+  (let ((group (archive-find-group groups section)))
+    (when (and group (archive-group-from-graph group))
+      (return-from archive-line (archive-line groups "system" "graph")))
+    (let ((statement (and group (if (integerp key)
+                                    (nth (1- key) (archive-group-statements group))
+                                    (archive-find-statement group key)))))
+      (or (and statement (archive-statement-line statement))
+          (and group (archive-group-line group))))))
+
+(defun archive-line-place (path line)
+  (and path line (format nil "~a, line ~d" (archive-file-name path) line)))
+
+(defun archive-key-text (key)
+  (if (and key (symbolp key)) (core-spelling key) key))
+
+(defun archive-place (archive section key)
+  "\"pendulum.txt, line 14\" for a key of a section, nil where there is no file."
+  (archive-line-place (archive-path archive)
+                      (archive-line (archive-groups archive) section (archive-key-text key))))
+
+(defun archive-with-places (path groups function)
+  "Calls FUNCTION while faults find their places in GROUPS of the file PATH."
+  (let ((*core-place* (lambda (section key)
+                        (archive-line-place path (archive-line groups section (archive-key-text key))))))
+    (funcall function)))
+
+(defun archive-statement-place (statement)
+  "\" (pendulum.txt, line 7)\", or nothing where there is no file."
+  (let ((line (archive-statement-line statement)))
+    (if line (format nil " (line ~d)" line) "")))
+
+;;; From a description list
+
+(defun archive-holds-set-p (value)
+  (and (consp value) (consp (car value))
+       (or (eq (caar value) '$set) (some #'archive-holds-set-p (cdr value)))))
+
+(defun archive-check-no-set (equation)
+  (when (archive-holds-set-p equation)
+    (core-error "~a holds a set { }, in which the order and equal items are lost; use [ ]"
+                (archive-key-text (second equation)))))
+
+(defun archive-list-key (equation)
+  "The key of an item of a description list, as text."
+  (unless (archive-equation-p equation)
+    (core-error "a description is a list of equations such as mass = m, found ~a" (archive-value-shown equation)))
+  (let ((left (second equation)))
+    (cond ((stringp left) left)
+          ((eq left $functions) "functions")  ; always bound in Maxima, and so is the next
+          ((eq left $values) "values")
+          ((archive-symbol-p left) (archive-key-text left))
+          (t (core-error "a description is a list of key = value, found ~a; if the key has a value in the session, quote it"
+                         (archive-value-shown equation))))))
+
+(defun archive-list-statement (equation)
+  (make-archive-statement :key (archive-list-key equation) :value (third equation)))
+
+(defun archive-list-items (section value)
+  (if (archive-list-p value)
+      (cdr value)
+      (core-fault section nil "it must be a list, found ~a" (archive-value-shown value))))
+
+(defun archive-section-key-p (name)
+  "Whether NAME, the key of an item of a description list, names a section."
+  (and (position #\Space name) t))
+
+(defun archive-row-section-p (name)
+  (eq (third (archive-section-row name)) :rows))
+
+(defun archive-list-group (equation)
+  "The group of a section or of rows in a description list."
+  (let ((name (archive-list-key equation)))
+    (make-archive-group
+     :section name
+     :statements (mapcar (if (archive-row-section-p name)
+                             (lambda (row) (make-archive-statement :value row))
+                             #'archive-list-statement)
+                         (archive-list-items name (third equation))))))
+
+(defun archive-top-keys ()
+  (mapcar #'archive-key-name (archive-keys nil "top")))
+
+(defun archive-with-version (statements)
+  "STATEMENTS; a description list may leave out the version."
+  (if (find "dynarch" statements :key #'archive-statement-key :test #'string=)
+      statements
+      (cons (make-archive-statement :key "dynarch" :value *archive-version*) statements)))
+
+(defun archive-groups-of-list (list)
+  "The groups of a description list: what is not a section stands in [system], or before it."
+  (mapc #'archive-check-no-set (cdr list))
+  (let ((top '()) (system '()) (groups '()))
+    (dolist (equation (cdr list))
+      (let ((name (archive-list-key equation)))
+        (cond ((or (archive-section-key-p name) (archive-row-section-p name))
+               (push (archive-list-group equation) groups))
+              ((member name (archive-top-keys) :test #'string=)
+               (push (archive-list-statement equation) top))
+              (t (push (archive-list-statement equation) system)))))
+    (list* (make-archive-group :section "archive" :statements (archive-with-version (nreverse top)))
+           (make-archive-group :section "system" :statements (nreverse system))
+           (nreverse groups))))

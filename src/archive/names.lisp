@@ -1,0 +1,135 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Names of a description: which are declared, which are free, and what is assumed of the parameters.
+;;; A name that nothing declares is a free symbol; one warning lists them all, since a misprint looks just so.
+;;; A key's type says what its value declares (left sides, lists of names) and what it uses.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/keys" "archive/types"))
+
+(defparameter *archive-row-value-field* 3 "Place of the value in a branch's fields: n1, n2, type, value.")
+
+(defun archive-lefts (equations) (mapcar #'second (cdr equations)))
+
+(defun archive-rights (equations) (mapcar #'third (cdr equations)))
+
+(defun archive-fact-names (facts)
+  (reduce #'union (mapcar #'archive-names-in (cdr facts)) :initial-value '()))
+
+(defun archive-law-names (laws)
+  "Names that the right sides of laws use, their arguments aside."
+  (loop for law in (cdr laws)
+        append (set-difference (archive-used-names (third law)) (cdr (second law)))))
+
+(defun archive-used-names (value)
+  "The names that VALUE uses: not the variable of an integral, which is bound in its integrand."
+  (cond ((archive-symbol-p value) (list value))
+        ((atom value) '())
+        ((archive-head-p value '%integrate '$integrate)
+         (union (remove (third value) (archive-used-names (second value)))
+                (reduce #'union (mapcar #'archive-used-names (cdddr value)) :initial-value '())))
+        (t (reduce #'union (mapcar #'archive-used-names (cdr value)) :initial-value '()))))
+
+(defun archive-used-by (type value)
+  "The names that a key's VALUE uses."
+  (case type
+    ((:expression :expressions :vector :vanishing :rates :skew :inertia :points)
+     (archive-used-names value))
+    (:velocity (if (eq value '$auto) '() (archive-used-names value)))
+    (:assignments (archive-used-names (archive-list (archive-rights value))))
+    (:motion (archive-used-names (archive-list (archive-rights value))))
+    (:laws (archive-law-names value))
+    (:rotor (if (atom value) '() (archive-used-names value)))
+    (t '())))
+
+(defun archive-declared-by (type value)
+  "The names that a key's VALUE declares."
+  (case type
+    (:names (cdr value))
+    (:facts (archive-fact-names value))
+    (:assignments (archive-lefts value))
+    (:states (append (archive-lefts value) (archive-rights value)))
+    (:laws (mapcar #'caar (archive-lefts value)))
+    (:spin (cddr value))
+    (t '())))
+
+(defun archive-momentum-names (description)
+  "Names p_q that momenta have unless the user names them, and names of what the kind itself brings."
+  (append (mapcar (lambda (q) (core-symbol (format nil "p_~a" (core-spelling q))))
+                  (remove-if-not #'archive-symbol-p (cdr ($core_get description '$coordinates nil))))
+          (archive-used-names (archive-list (archive-rights ($core_get description '$momenta nil))))
+          (when ($core_get description '$algebra nil)
+            (mapcar #'core-symbol '("M1" "M2" "M3" "g1" "g2" "g3")))))
+
+(defun archive-rotor-angles (description)
+  "The angles of bodies with a rotor: names that are no coordinates."
+  (loop for equation in (cdr description)
+        when (and (stringp (second equation)) ($core_get (third equation) '$rotor nil))
+          append (archive-used-names ($core_get (third equation) '$angles '((mlist))))))
+
+;; Circuits: labels and states
+
+(defun archive-row-fields (row)
+  (cdr (if (archive-equation-p row) (third row) row)))
+
+(defun archive-row-labels (row)
+  "What the branch may be called by: its label, or its value when that is a name."
+  (remove-if-not #'archive-symbol-p
+                 (list (if (archive-equation-p row)
+                           (second row)
+                           (nth *archive-row-value-field* (archive-row-fields row))))))
+
+(defun archive-row-states (row)
+  "The state that the row names, and the names it would have by default."
+  (append (remove-if-not #'archive-symbol-p (nthcdr (1+ *archive-row-value-field*) (archive-row-fields row)))
+          (loop for label in (archive-row-labels row)
+                append (list (core-symbol (format nil "i_~a" (core-spelling label)))
+                             (core-symbol (format nil "u_~a" (core-spelling label)))))))
+
+(defun archive-branch-names (description)
+  "Two values: names that the branches declare, and names that their values use."
+  (let ((rows (cdr ($core_get description '$branches '((mlist))))))
+    (values (append (mapcan #'archive-row-states rows)
+                    (loop for row in rows when (archive-equation-p row) collect (second row)))
+            (archive-used-names
+             (archive-list (append (loop for row in rows
+                                         append (remove nil (list (nth *archive-row-value-field* (archive-row-fields row)))))
+                                   (archive-last-fields ($core_get description '$couplings nil))
+                                   (archive-last-fields ($core_get description '$transformers nil))))))))
+
+(defun archive-last-fields (rows)
+  "The values of couplings and transformers: M, the right side of k = 0.9, the ratio."
+  (loop for row in (cdr rows)
+        for value = (car (last (archive-row-fields row)))
+        collect (if (archive-equation-p value) (third value) value)))
+
+;; All names
+
+(defun archive-map-keys (function kind description)
+  "The lists that FUNCTION(type, value) gives for every key of DESCRIPTION, joined."
+  (flet ((section (word equations)
+           (loop for (nil name value) in equations
+                 for key = (and (symbolp name) (archive-find-key kind word (core-spelling name)))
+                 append (and key (copy-list (funcall function (archive-key-type key) value))))))
+    (append (section "system" (cdr description))
+            (loop for (nil name value) in (cdr description)
+                  when (stringp name) append (section (archive-section-word name) (cdr value))))))
+
+(defun archive-free-symbols (kind description)
+  "The names that DESCRIPTION uses and does not declare, sorted."
+  (multiple-value-bind (branch-declares branch-uses) (archive-branch-names description)
+    (let ((declared (append '($t) branch-declares (archive-momentum-names description)
+                            (archive-rotor-angles description)
+                            (archive-map-keys #'archive-declared-by kind description)))
+          (used (append branch-uses (archive-map-keys #'archive-used-by kind description))))
+      (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared))) #'string<))))
+
+(defun archive-warn-free-symbols (kind description)
+  (let ((free (archive-free-symbols kind description)))
+    (when free
+      (core-warn "free symbols, not listed in parameters: ~{~a~^, ~}" free))))
+
+(defun archive-facts (description)
+  "A list of the relations of DESCRIPTION's parameters, as `assume' takes them."
+  (remove-if-not #'archive-relation-p (cdr ($core_get description '$parameters '((mlist))))))
