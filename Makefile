@@ -23,4 +23,4 @@ test-maxima:
 
 # The manual that `? name` shows, from its texinfo source.
 doc:
-	@doc/build
+	@tools/doc
