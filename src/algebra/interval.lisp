@@ -15,7 +15,10 @@
 
 (defun algebra-interval-sign (e)
   "1 or -1 if the constant E is proved positive or negative, else nil."
-  (loop for bits in '(64 192 640 2048)
+  (algebra-interval-sign-among e '(64 192 640 2048)))
+
+(defun algebra-interval-sign-among (e widths)
+  (loop for bits in widths
         thereis (algebra-interval-sign-at e bits)))
 
 (defun algebra-interval-sign-at (e bits)

@@ -9,6 +9,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/size"))
+
 (defstruct (algebra-kernel (:conc-name algebra-kernel-))
   variable        ; the polynomials' own symbol
   expression      ; what it stands for
@@ -33,6 +36,7 @@
 
 (defvar *algebra-ring* nil "the kernels of the expressions at hand")
 (defvar *algebra-exponential-form* nil "true: sinh and cosh become exponentials")
+(defvar *algebra-roots-apart* nil "true: roots of products become products of roots where allowed")
 
 (defmacro with-algebra-ring (&body body)
   `(let ((*algebra-ring* (make-algebra-ring))
@@ -63,6 +67,7 @@
              ((mlist $matrix $set mequal mnotequal mgreaterp mlessp mgeqp mleqp mand mor mnot msetq
                mdefine mcond mprog mprogn)
               (algebra-outside e))
+             (mabs (algebra-absolute (cadr e)))
              (t (algebra-scan-function e))))))
 
 (defun algebra-outside (e)
@@ -148,11 +153,20 @@
           collect (algebra-term term kind))))
 
 (defun algebra-term (term kind)
-  (multiple-value-bind (factor base) (algebra-numeric-factor term)
-    (let ((unit (algebra-find-unit base kind)))
-      (setf (algebra-unit-denominator unit)
-            (lcm (algebra-unit-denominator unit) (denominator factor)))
-      (cons factor unit))))
+  (or (and (eq kind 'circular) (algebra-known-angle term))
+      (multiple-value-bind (factor base) (algebra-numeric-factor term)
+        (let ((unit (algebra-find-unit base kind)))
+          (setf (algebra-unit-denominator unit)
+                (lcm (algebra-unit-denominator unit) (denominator factor)))
+          (cons factor unit)))))
+
+(defun algebra-known-angle (term)
+  "(known cosine sine) for multiples of %pi whose sines Maxima knows by roots."
+  (when (and (not (symbolp term)) (among '$%pi term) ($constantp term))
+    (let ((cosine (simplify (list '(%cos) term)))
+          (sine (simplify (list '(%sin) term))))
+      (unless (or (among '$%pi cosine) (among '$%pi sine))
+        (list 'known (algebra-scan cosine) (algebra-scan sine))))))
 
 (defun algebra-numeric-factor (term)
   (cond ((and (mtimesp term) (algebra-rational-number (cadr term)))
@@ -174,7 +188,7 @@
         (push unit (algebra-ring-units *algebra-ring*))
         unit)))
 
-;;; Powers and roots.
+;;; Powers.
 
 (defun algebra-scan-power (base exponent)
   (let ((number (algebra-rational-number exponent)))
@@ -183,47 +197,12 @@
           (number (list '^ (algebra-root base (denominator number)) (numerator number)))
           (t (list 'power (algebra-terms exponent (algebra-normal-form base)))))))
 
-(defun algebra-root (base degree)
-  (if (and (integerp base) (> base 1))
-      (cons '* (algebra-prime-roots base degree))
-      (algebra-find-root base degree)))
-
-(defun algebra-prime-roots (n degree)
-  "sqrt(6) is sqrt(2)*sqrt(3)."
-  (loop for (prime power) on (algebra-prime-factors n) by #'cddr
-        collect (list '^ (algebra-find-root prime degree) power)))
-
-(defun algebra-prime-factors (n)
-  (if (< n (expt 10 12))
-      (let (($intfaclim nil)) (cfactorw n))
-      (list n 1)))
-
-(defun algebra-find-root (base degree)
-  (let* ((radicand (if (atom base) base (algebra-normal-form base)))
-         (expression (power radicand (list '(rat simp) 1 degree))))
-    (or (algebra-find-opaque expression)
-        (let* ((skeleton (algebra-scan radicand))
-               (kernel (algebra-new-kernel expression 5 nil)))
-          (setf (algebra-kernel-degree kernel) degree
-                (algebra-kernel-radicand kernel) skeleton
-                (algebra-kernel-depth kernel) (1+ (algebra-root-depth skeleton)))
-          (push (cons expression kernel) (algebra-ring-opaque *algebra-ring*))
-          kernel))))
-
-(defun algebra-root-depth (skeleton)
-  (cond ((algebra-kernel-p skeleton) (algebra-kernel-depth skeleton))
-        ((consp skeleton)
-         (loop for part on (cdr skeleton)
-               while (consp part)
-               maximize (algebra-root-depth (car part))))
-        (t 0)))
-
 ;;; Opaque kernels: functions without a law here, derivatives, integrals.
 
 (defun algebra-scan-opaque (e)
   (let ((canonical (algebra-canonical-noun e)))
     (or (algebra-find-opaque canonical)
-        (let ((kernel (algebra-new-kernel e (if (eq (caar e) '%derivative) 4 3)
+        (let ((kernel (algebra-new-kernel canonical (if (eq (caar e) '%derivative) 4 3)
                                           (algebra-open-p e))))
           (push (cons canonical kernel) (algebra-ring-opaque *algebra-ring*))
           kernel))))
@@ -256,11 +235,18 @@
         (t (algebra-normal-form argument))))
 
 (defun algebra-rename-dummy (e)
+  "The dummy variable becomes s, or s1, s2, .. where the rest of the noun has s."
   (destructuring-bind (integrand variable . limits) (cdr e)
-    (list* (car e)
-           (algebra-normal-argument (maxima-substitute '$%dummy variable integrand))
-           '$%dummy
-           (mapcar #'algebra-normal-argument limits))))
+    (let ((dummy (algebra-free-dummy variable (cons '(mlist) (cons integrand limits)))))
+      (list* (car e)
+             (algebra-normal-argument (maxima-substitute dummy variable integrand))
+             dummy
+             (mapcar #'algebra-normal-argument limits)))))
+
+(defun algebra-free-dummy (variable e)
+  (loop for name in '($s $s1 $s2 $s3 $s4 $s5)
+        when (or (eq name variable) (not (among name e))) return name
+        finally (return variable)))
 
 ;;; Order of variables, low to high: pairs of angles, exponentials, symbols, functions,
 ;;; derivatives, roots.  Relations then reduce leaf by leaf.
@@ -365,23 +351,31 @@
 
 (defun algebra-angle (terms)
   "The quotients (cosine . sine) of a sum of angles, by the theorem of addition."
-  (let* ((unit (cdar terms))
-         (sign (if (eq (algebra-unit-kind unit) 'circular) -1 1))
-         (first (algebra-multiple-angle unit (* (caar terms) (algebra-unit-denominator unit)) sign)))
+  (let ((first (algebra-term-angle (car terms))))
     (if (null (cdr terms))
         first
-        (algebra-add-angles first (algebra-angle (cdr terms)) sign))))
+        (algebra-add-angles first (algebra-angle (cdr terms)) (algebra-angle-sign (car terms))))))
+
+(defun algebra-angle-sign (term)
+  "cos(a+b) = cos(a)*cos(b) + sign*sin(a)*sin(b), hyperbolic or not."
+  (if (and (not (eq (car term) 'known)) (eq (algebra-unit-kind (cdr term)) 'hyperbolic)) 1 -1))
+
+(defun algebra-term-angle (term)
+  (if (eq (car term) 'known)
+      (cons (algebra-evaluate (cadr term)) (algebra-evaluate (caddr term)))
+      (algebra-multiple-angle (cdr term)
+                              (* (car term) (algebra-unit-denominator (cdr term))))))
 
 (defun algebra-add-angles (a b sign)
   (flet ((times (x y) (rattimes x y t)))
     (cons (ratplus (times (car a) (car b)) (times (cons sign 1) (times (cdr a) (cdr b))))
           (ratplus (times (cdr a) (car b)) (times (car a) (cdr b))))))
 
-(defun algebra-multiple-angle (unit n sign)
+(defun algebra-multiple-angle (unit n)
   (let ((cosine (algebra-variable (algebra-unit-cosine unit)))
         (sine (algebra-variable (algebra-unit-sine unit))))
     (cond ((minusp n)
-           (let ((positive (algebra-multiple-angle unit (- n) sign)))
+           (let ((positive (algebra-multiple-angle unit (- n))))
              (cons (car positive) (ratminus (cdr positive)))))
           ((> n 200) (core-error "an angle with the multiple ~A is too much to expand" n))
           (t (algebra-chebyshev cosine sine n)))))

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/reduction" "algebra/readable"))
+  (core-require "algebra/kernels" "algebra/roots" "algebra/reduction" "algebra/readable"))
 
 (defun $algebra_normal (e)
   (algebra-map-bags #'algebra-normal-form e))

@@ -56,6 +56,7 @@
 
 (defun algebra-hurwitz-polynomials (coefficients)
   (or (and (<= (length (algebra-ring-kernels *algebra-ring*)) 2)
+           (notany #'algebra-pair-p (algebra-ring-units *algebra-ring*))
            (algebra-routh-minors coefficients))
       (algebra-memoised-hurwitz coefficients)))
 
@@ -90,10 +91,7 @@
   (loop for (b) on (cdr above)
         for rest = (cdr row) then (cdr rest)
         for cross = (pdifference (ptimes (car row) b) (ptimes (car above) (or (car rest) 0)))
-        collect (algebra-exact-quotient (algebra-reduce-angles cross) divisor)))
-
-(defun algebra-exact-quotient (p divisor)
-  (if (eql divisor 1) p (pquotient p divisor)))
+        collect (pquotient cross divisor)))
 
 ;;; Determinants with a parameter lambda.
 

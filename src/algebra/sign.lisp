@@ -117,12 +117,6 @@
       (($pos $neg $zero $pz $nz $pn) answer)
       (t '$unknown))))
 
-(defun algebra-quietly (function)
-  "The value of FUNCTION, nil if Maxima signals an error; questions are errors, too."
-  (let ((errcatch t) ($errormsg nil) (*mdebug* nil))
-    (declare (special errcatch $errormsg *mdebug*))
-    (car (errset (funcall function)))))
-
 ;;; Factors and facts.
 
 (defun algebra-factored-sign (e)

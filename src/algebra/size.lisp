@@ -33,3 +33,11 @@
 (defun $algebra_guard (predicted what)
   (algebra-guard predicted (if (stringp what) what (coerce (mstring what) 'string)))
   '$done)
+
+;;; Maxima's own functions, asked without consequences.
+
+(defun algebra-quietly (function)
+  "The value of FUNCTION, nil if Maxima signals an error; questions are errors, too."
+  (let ((errcatch t) ($errormsg nil) (*mdebug* nil))
+    (declare (special errcatch $errormsg *mdebug*))
+    (car (errset (funcall function)))))

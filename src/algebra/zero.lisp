@@ -7,10 +7,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/interval"))
+  (core-require "algebra/normal" "algebra/interval" "algebra/numbers"))
 
 (defun $algebra_zerop (e)
-  (cond ((mbagp e) (algebra-all-zero (mapcar #'$algebra_zerop (cdr e))))
+  (cond ((mequalp e) (algebra-zero-test (sub (cadr e) (caddr e))))
+        ((mbagp e) (algebra-all-zero (mapcar #'$algebra_zerop (cdr e))))
         ((numberp e) (zerop e))
         (t (algebra-zero-test e))))
 
@@ -22,21 +23,47 @@
 (defun algebra-zero-test (e)
   (case (algebra-remainder-test e)
     (zero t)
-    (independent nil)
+    (not-zero nil)
     (t (if (algebra-nonzero-somewhere-p e) nil '$unknown))))
 
 (defun algebra-remainder-test (e)
-  "zero; independent: surely not zero; dependent: not zero in kernels that may be bound."
+  "zero, not-zero, or dependent: not zero as a polynomial in kernels that may be bound."
   (with-algebra-ring
     (let* ((*algebra-exponential-form* t)
+           (*algebra-roots-apart* t)
            (skeleton (algebra-scan e))
            (quotient (progn (algebra-order-kernels) (algebra-evaluate skeleton))))
-      (cond ((algebra-vanishes-p (cdr quotient)) (core-error "division by zero"))
-            ((algebra-vanishes-p (car quotient)) 'zero)
-            ((algebra-sure-p (car quotient)) 'independent)
-            (t 'dependent)))))
+      (when (algebra-vanishes-p (cdr quotient)) (core-error "division by zero"))
+      (algebra-polynomial-test (car (algebra-reduce (car quotient)))))))
 
-(defun algebra-sure-p (p)
+(defun algebra-polynomial-test (p)
+  (let ((unsure (algebra-unsure-kernels p)))
+    (cond ((pzerop p) 'zero)
+          ((null unsure) 'not-zero)
+          ((every #'algebra-constant-kernel-p unsure) (algebra-coefficients-test p))
+          (t 'dependent))))
+
+(defun algebra-unsure-kernels (p)
   (loop for kernel in (algebra-ring-kernels *algebra-ring*)
-        always (or (algebra-kernel-sure kernel)
-                   (not (algebra-occurs-p (algebra-kernel-variable kernel) p)))))
+        unless (or (algebra-kernel-sure kernel)
+                   (not (algebra-occurs-p (algebra-kernel-variable kernel) p)))
+          collect kernel))
+
+(defun algebra-constant-kernel-p (kernel)
+  ($constantp (algebra-kernel-expression kernel)))
+
+(defun algebra-coefficients-test (p)
+  "A polynomial in independent kernels whose coefficients are constants: test each of these."
+  (let ((answers (mapcar #'algebra-constant-test (algebra-constant-coefficients p))))
+    (cond ((member 'dependent answers) 'dependent)
+          ((member 'not-zero answers) 'not-zero)
+          (t 'zero))))
+
+(defun algebra-constant-coefficients (p)
+  (let ((coefficients (list p)))
+    (dolist (kernel (algebra-ring-kernels *algebra-ring*) coefficients)
+      (when (or (algebra-kernel-sure kernel) (eq (algebra-kernel-expression kernel) '$%i))
+        (setq coefficients
+              (loop for coefficient in coefficients
+                    append (mapcar #'cadr (algebra-powers coefficient
+                                                          (algebra-kernel-variable kernel)))))))))

@@ -1,0 +1,133 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; Roots as kernels: kernel^n = radicand.  Radicands are normal, freed of squares,
+;;; sqrt(f^2*g) = |f|*sqrt(g), and |f| is f or -f where the facts tell its sign, else a kernel
+;;; with |f|^2 = f^2.  For the zero test known positive factors are taken apart,
+;;; sqrt(x*y) = sqrt(x)*sqrt(y), and sqrt(x/y) = sqrt(x*y)/|y|.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/kernels"))
+
+(defun algebra-root (base degree)
+  "The skeleton of base^(1/degree)."
+  (cond ((not (integerp base))
+         (if (symbolp base)
+             (algebra-root-kernel base degree)
+             (algebra-root-of-factors (algebra-radicand-factors base) degree)))
+        ((plusp base) (cons '* (algebra-prime-roots base degree)))
+        ((and (= degree 2) (< base -1))
+         (list '* (algebra-root-kernel -1 2) (algebra-root (- base) 2)))
+        (t (algebra-root-kernel base degree))))
+
+(defun algebra-prime-roots (n degree)
+  "sqrt(6) is sqrt(2)*sqrt(3)."
+  (cons 1 (loop for (prime power) on (algebra-prime-factors n) by #'cddr
+                collect (multiple-value-bind (whole rest) (floor power degree)
+                          (if (zerop rest)
+                              (expt prime whole)
+                              (list '^ (algebra-root-kernel prime degree) power))))))
+
+(defun algebra-prime-factors (n)
+  (cond ((= n 1) nil)
+        ((< n (expt 10 14)) (cfactorw n))
+        (t (list n 1))))
+
+;;; A radicand as a list of (factor . power), powers negative below the line.
+
+(defun algebra-radicand-factors (base)
+  (let* ((normal (algebra-normal-form base))
+         (factored (algebra-take-factors normal)))
+    (algebra-factor-list factored)))
+
+(defun algebra-take-factors (e)
+  "All factors for the zero test, else the squares only."
+  (cond ((atom e) e)
+        ((and *algebra-roots-apart* (< (algebra-size e) 400))
+         (or (algebra-quietly (lambda () ($factor e))) e))
+        ((< (algebra-size e) 2000) (or (algebra-quietly (lambda () ($sqfr e))) e))
+        (t e)))
+
+(defun algebra-factor-list (e)
+  (loop for factor in (if (mtimesp e) (cdr e) (list e))
+        append (let ((number (algebra-rational-number factor)))
+                 (cond (number (list (cons (numerator number) 1) (cons (denominator number) -1)))
+                       ((and (mexptp factor) (integerp (caddr factor)))
+                        (list (cons (cadr factor) (caddr factor))))
+                       (t (list (cons factor 1)))))))
+
+(defun algebra-root-of-factors (factors degree)
+  "Whole powers out, the rest under one root; for the zero test positive factors apart."
+  (let ((outside nil) (inside 1))
+    (loop for (f . power) in factors
+          for sign = (algebra-known-sign f)
+          do (cond ((and (integerp f) (plusp f))
+                    (push (list '^ (algebra-root f degree) power) outside))
+                   ((or (= degree 2) (member sign '($pos $pz)))
+                    (multiple-value-bind (whole rest) (algebra-whole-powers power degree)
+                      (unless (zerop whole)
+                        (push (list '^ (algebra-absolute f) whole) outside))
+                      (cond ((zerop rest))
+                            ((and *algebra-roots-apart* (member sign '($pos $pz)))
+                             (push (list '^ (algebra-root-kernel f degree) rest) outside))
+                            (t (setq inside (mul inside (power f rest)))))))
+                   (t (setq inside (mul inside (power f power))))))
+    (list* '* (if (integerp inside)
+                  (algebra-root inside degree)
+                  (algebra-root-kernel (algebra-normal-form inside) degree))
+           outside)))
+
+(defun algebra-whole-powers (power degree)
+  "In the zero test nothing stays below the line of a radicand."
+  (if *algebra-roots-apart*
+      (floor power degree)
+      (truncate power degree)))
+
+(defun algebra-known-sign (e)
+  (if (and (integerp e) (minusp e))
+      '$neg
+      (algebra-quietly (lambda () ($sign e)))))
+
+(defun algebra-absolute (e)
+  "The skeleton of |e|."
+  (case (algebra-known-sign e)
+    (($pos $pz) (algebra-scan e))
+    (($neg $nz) (list '* -1 (algebra-scan e)))
+    (t (let ((expression (simplify (list '(mabs) (algebra-normal-form e)))))
+         (if (and (consp expression) (eq (caar expression) 'mabs))
+             (algebra-absolute-kernel expression)
+             (algebra-scan-products expression))))))
+
+(defun algebra-scan-products (e)
+  "Products and quotients of absolute values that Maxima took apart."
+  (cond ((and (consp e) (eq (caar e) 'mabs)) (algebra-absolute-kernel e))
+        ((mtimesp e) (cons '* (mapcar #'algebra-scan-products (cdr e))))
+        ((and (mexptp e) (integerp (caddr e)))
+         (list '^ (algebra-scan-products (cadr e)) (caddr e)))
+        (t (algebra-scan e))))
+
+(defun algebra-absolute-kernel (expression)
+  (algebra-find-or-make-root expression 2 (lambda () (list '^ (algebra-scan (cadr expression)) 2))))
+
+(defun algebra-root-kernel (radicand degree)
+  (algebra-find-or-make-root (power radicand (list '(rat simp) 1 degree)) degree
+                             (lambda () (algebra-scan radicand))))
+
+(defun algebra-find-or-make-root (expression degree radicand)
+  (or (algebra-find-opaque expression)
+      (let* ((skeleton (funcall radicand))
+             (kernel (algebra-new-kernel expression 5 nil)))
+        (setf (algebra-kernel-degree kernel) degree
+              (algebra-kernel-radicand kernel) skeleton
+              (algebra-kernel-depth kernel) (1+ (algebra-root-depth skeleton)))
+        (push (cons expression kernel) (algebra-ring-opaque *algebra-ring*))
+        kernel)))
+
+(defun algebra-root-depth (skeleton)
+  (cond ((algebra-kernel-p skeleton) (algebra-kernel-depth skeleton))
+        ((consp skeleton)
+         (loop for part on (cdr skeleton)
+               while (consp part)
+               maximize (algebra-root-depth (car part))))
+        (t 0)))
