@@ -11,6 +11,7 @@
   (core-require "archive/tokens" "archive/simplify"))
 
 (defvar *archive-nesting* 200 "The most levels of nesting.")
+(defparameter *archive-open-functions* 1000 "The most functions that an archive may leave open.")
 
 (defparameter *archive-functions*
   '(("sin" %sin 1) ("cos" %cos 1) ("tan" %tan 1) ("cot" %cot 1) ("sec" %sec 1) ("csc" %csc 1)
@@ -348,11 +349,12 @@
         (archive-fault reader from "~a() has no arguments" name))
       (archive-computed (reader from)
         (cond (form (funcall form reader name from arguments places))
-              (t (loop for argument in arguments for place in places
+              (t (unless function (archive-note-call reader name from))
+                 (loop for argument in arguments for place in places
                        do (archive-expect-scalar reader place argument))
                  (if function
                      (archive-make-function reader function from arguments)
-                     (archive-make-open-function reader name from arguments))))))))
+                     (archive-inert (archive-symbol name) arguments))))))))
 
 (defun archive-make-function (reader function from arguments)
   (destructuring-bind (name operator number) function
@@ -360,12 +362,16 @@
       (archive-fault reader from "~a has ~d argument~:p, expected ~d" name (length arguments) number))
     (archive-function-value operator arguments)))
 
-(defun archive-make-open-function (reader name from arguments)
-  "A function that Maxima does not have: the archive's keys must name it."
+(defun archive-note-call (reader name from)
+  "Keeps the call of a function that Maxima does not have: the archive's keys must name it."
   (when (member name '("true" "false" "inf") :test #'string=)
     (archive-fault reader from "~a is not a function" name))
-  (push (cons name from) (reader-calls reader))
-  (archive-inert (archive-symbol name) arguments))
+  (when (archive-maxima-function-p name)
+    (archive-fault reader from "found the function ~a of Maxima; an archive cannot call it" name))
+  (unless (assoc name (reader-calls reader) :test #'string=)
+    (when (> (length (reader-calls reader)) *archive-open-functions*)
+      (archive-fault reader from "more than ~d functions" *archive-open-functions*))
+    (push (cons name from) (reader-calls reader))))
 
 (defun archive-expect-count (reader name from arguments &rest counts)
   (unless (member (length arguments) counts)
@@ -471,17 +477,20 @@
 
 (defun archive-parse-value (text &key file (line 1) (column 1) (start 0) end doubles relations)
   "Two values: the Maxima expression that TEXT from START to END spells, and the functions called in it that Maxima does not
-have, as a list of (name line column). DOUBLES: decimals are doubles. RELATIONS: the value may be an equation."
+have, as a list of (name line column), each once. DOUBLES: decimals are doubles. RELATIONS: the value may be an equation."
   (let* ((reader (archive-open-text text :file file :line line :column column :start start :end end :doubles doubles))
          (value (archive-parse-reader! reader :relations relations)))
-    (values value
-            (loop for (name . position) in (reverse (reader-calls reader))
-                  collect (cons name (multiple-value-list (archive-reader-place reader position)))))))
+    (values value (archive-reader-calls reader))))
+
+(defun archive-reader-calls (reader)
+  "The open functions that READER met, each with the place where it came first: list of (name line column)."
+  (loop for (name . position) in (reverse (reader-calls reader))
+        collect (cons name (multiple-value-list (archive-reader-place reader position)))))
 
 (defun archive-maxima-function-p (name)
   "True when Maxima, not the person, has a function or operator called NAME."
   (let ((symbol (archive-symbol name)))
-    (and (not (mget symbol 'mexpr))
+    (and (not (mget symbol 'mexpr)) (not (get symbol 'translated))
          (or (fboundp symbol) (get symbol 'operators) (get symbol 'mfexpr*) (get symbol 'autoload) (get symbol 'alias)
              (get symbol 'verb) (get symbol 'noun))
          t)))
