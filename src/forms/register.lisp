@@ -23,42 +23,42 @@
   :kinds *forms-kinds*)
 (core-rule "LagrangeEquations" :any "forms/lagrange" "forms_lagrange_equations"
   "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
-  '("nonholonomic" ((mlist simp))) '("simplify" nil) '("expanded" nil) '("eliminate" nil))
+  '("nonholonomic" ((mlist simp))) '("simplify" nil) '("expanded" nil) '("eliminate" nil) '("form" $auto))
 
 (core-public "MassForm"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("rayleigh" "forces")
   :kinds *forms-kinds*)
 (core-rule "MassForm" :any "forms/mass" "forms_mass_form"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))))
+  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("form" $auto))
 
 (core-public "Quadratics"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :kinds *forms-kinds*)
-(core-rule "Quadratics" :any "forms/quadratics" "forms_quadratics" "Lagrangian" "coordinates" '("ForceFunction" nil))
+(core-rule "Quadratics" :any "forms/quadratics" "forms_quadratics" "Lagrangian" "coordinates" '("ForceFunction" nil) '("form" $auto))
 
 ;;; Routh
+
+(defparameter *forms-routh-inputs*
+  '("Lagrangian" "coordinates" ("cyclic" $auto) ("momenta" ((mlist simp))) ("rayleigh" 0) ("forces" ((mlist simp)))
+    ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))))
 
 (core-public "RouthFunction"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("cyclic" "momenta" "rayleigh" "forces" "constraints" "nonholonomic")
   :kinds *forms-kinds*)
-(core-rule "RouthFunction" :any "forms/routh" "forms_routh_function"
-  "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp)))
-  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))))
+(apply #'core-rule "RouthFunction" :any "forms/routh" "forms_routh_function"
+       (append *forms-routh-inputs* '(("form" $auto))))
 
 (core-public "RouthEquations"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("cyclic" "momenta" "rayleigh" "forces" "constraints" "nonholonomic" "simplify")
   :kinds *forms-kinds*)
-(core-rule "RouthEquations" :any "forms/routh" "forms_routh_equations"
-  "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp)))
-  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("simplify" nil))
+(apply #'core-rule "RouthEquations" :any "forms/routh" "forms_routh_equations"
+       (append *forms-routh-inputs* '(("simplify" nil) ("form" $auto))))
 
-(core-rule "routh_variables" :any "forms/routh" "forms_routh_variables"
-  "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp)))
-  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))))
-(core-rule-field "remaining_coordinates" :any "routh_variables" 2)
+(apply #'core-rule "remaining_coordinates" :any "forms/routh" "forms_remaining_coordinates" *forms-routh-inputs*)
+(apply #'core-rule "cyclic_integrals" :any "forms/routh" "forms_cyclic_integrals" *forms-routh-inputs*)
 
 ;;; Hamilton
 
@@ -67,11 +67,14 @@
   :options '("momenta")
   :kinds *forms-kinds*)
 (core-rule "Hamiltonian" :any "forms/hamilton" "forms_hamiltonian"
-  "Lagrangian" "coordinates" '("momenta" ((mlist simp))))
+  "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("form" $auto))
+(core-rule-same-as "Hamiltonian" '("lagrangian") "hamiltonian" :given "hamiltonian")
 
 (core-public "HamiltonEquations"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("momenta" "rayleigh" "forces")
   :kinds *forms-kinds*)
 (core-rule "HamiltonEquations" :any "forms/hamilton" "forms_hamilton_equations"
-  "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp))))
+  "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp))) '("form" $auto))
+(core-rule-given "hamiltonian" "HamiltonEquations" '("lagrangian") "forms/hamilton" "forms_hamilton_equations_of"
+  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) '("forces" ((mlist simp))) '("form" $auto))

@@ -4,13 +4,13 @@
 (in-package :maxima)
 
 (core-public "Kinematics" :kinds '("mechanical"))
-(core-rule "Kinematics" '("mechanical") "linmodel/kinematics" "linmodel_kinematics" "description" '("form" $auto))
+(core-rule "Kinematics" '("mechanical") "linmodel/lagrangian" "linmodel_kinematics" "description" '("form" $auto))
 
 (core-public "KineticEnergy" :kinds '("mechanical"))
-(core-rule "KineticEnergy" '("mechanical") "linmodel/energy" "linmodel_kinetic_energy" "description" '("form" $auto))
+(core-rule "KineticEnergy" '("mechanical") "linmodel/lagrangian" "linmodel_kinetic_energy" "description" '("form" $auto))
 
 (core-public "ForceFunction" :kinds '("mechanical"))
-(core-rule "ForceFunction" '("mechanical") "linmodel/field" "linmodel_force_function" "description" '("form" $auto))
+(core-rule "ForceFunction" '("mechanical") "linmodel/lagrangian" "linmodel_force_function" "description" '("form" $auto))
 
 (core-public "Lagrangian" :kinds '("mechanical"))
 (core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description" '("form" $auto))

@@ -1,0 +1,72 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The kinetic energy as a quadratic form in the generalized velocities. Formula (1) of the source paper for a body,
+;;;     T = m v.v/2 + w.Theta.w/2 + m (v x w).c,     Theta about O_k, c from O_k to the centre of mass, all in axes of the body,
+;;; belongs to the product of two twists
+;;;     (x, y) = m v_x.v_y + w_x.Theta.w_y + m ((v_x x w_y) + (v_y x w_x)).c,   T = (x, x)/2,
+;;; so that M_ij = sum over bodies of (x_i, x_j): the mass matrix by projection, without a derivative of T.
+;;; A body whose tensor is given about its centre of mass, and a point mass: (x, y) = m u_x.u_y + w_x.Theta.w_y, u = v + w x c.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "linmodel/twists"))
+
+(defstruct linmodel-body link mass centre joint-inertia centre-inertia)
+
+(defun linmodel-read-body (a body)
+  "BODY is [index of its link, mass, centre, inertia about O_k or false, inertia about the centre or false]."
+  (destructuring-bind (link mass centre joint-inertia centre-inertia) (cdr body)
+    (make-linmodel-body :link link
+                        :mass (funcall (linmodel-arithmetic-lift a) mass)
+                        :centre (linmodel-lift-vector a centre)
+                        :joint-inertia (linmodel-lift-tensor a joint-inertia)
+                        :centre-inertia (linmodel-lift-tensor a centre-inertia))))
+
+(defun linmodel-lift-tensor (a tensor)
+  (and tensor (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr tensor))))
+
+(defun linmodel-twist-product (a body x y)
+  (if (linmodel-body-joint-inertia body)
+      (linmodel-product-about-joint a body x y)
+      (linmodel-product-about-centre a body x y)))
+
+(defun linmodel-product-about-joint (a body x y)
+  (destructuring-bind ((wx . vx) (wy . vy)) (list x y)
+    (let ((mixed (linmodel-vector-plus a (linmodel-cross a vx wy) (linmodel-cross a vy wx))))
+      (linmodel-plus a
+                     (linmodel-times a (linmodel-body-mass body)
+                                     (linmodel-plus a (linmodel-dot a vx vy)
+                                                    (linmodel-dot a mixed (linmodel-body-centre body))))
+                     (linmodel-rotation-product a (linmodel-body-joint-inertia body) wx wy)))))
+
+(defun linmodel-product-about-centre (a body x y)
+  (linmodel-plus a
+                 (linmodel-times a (linmodel-body-mass body)
+                                 (linmodel-dot a (linmodel-centre-velocity a body x) (linmodel-centre-velocity a body y)))
+                 (linmodel-rotation-product a (linmodel-body-centre-inertia body) (car x) (car y))))
+
+(defun linmodel-rotation-product (a tensor wx wy)
+  (if tensor (linmodel-dot a wx (linmodel-matrix-times a tensor wy)) 0))
+
+(defun linmodel-centre-velocity (a body x)
+  (linmodel-vector-plus a (cdr x) (linmodel-cross a (car x) (linmodel-body-centre body))))
+
+(defun linmodel-add-body (a form body twists)
+  "Adds the products of the TWISTS of BODY to the upper half of FORM."
+  (loop for ((i . x) . others) on twists
+        do (loop for (j . y) in (cons (cons i x) others)
+                 do (setf (aref form i j)
+                          (linmodel-plus a (aref form i j) (linmodel-twist-product a body x y))))))
+
+(defun $linmodel_inertia_form (links bodies n arithmetic)
+  "The symmetric matrix of (x_i, x_j), i, j = 0 .. N: T = sum (x_i, x_j) q_i' q_j'/2 with q_0' = 1."
+  (let* ((a (linmodel-arithmetic-named arithmetic))
+         (twists (linmodel-all-twists a (cdr links) n))
+         (form (make-array (list (1+ n) (1+ n)) :initial-element 0)))
+    (dolist (body (cdr bodies))
+      (let ((body (linmodel-read-body a body)))
+        (linmodel-add-body a form body (nth (1- (linmodel-body-link body)) twists))))
+    (cons '($matrix simp)
+          (loop for i from 0 to n
+                collect (linmodel-lower-vector a (loop for j from 0 to n
+                                                       collect (aref form (min i j) (max i j))))))))
