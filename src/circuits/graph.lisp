@@ -2,7 +2,7 @@
 ;;; Graphs of branches: spanning forest, fundamental loops, Kirchhoff's sums, and elimination where transformers join nodes.
 ;;; A branch is a pair of nodes [from, to], known by its number in the list; parallel branches stay apart. A loop is a list of
 ;;; [tree branch, sign], sign 1 where the way from the first node of the link to its second runs along the arrow.
-;;; Time: forest n log* n by union-find, loops the sum of their lengths, sums n; elimination only with transformers.
+;;; Time: forest n log* n by union-find, loops the sum of their lengths, Kirchhoff's sums n; elimination only with transformers.
 
 (in-package :maxima)
 
@@ -60,8 +60,8 @@
       (dotimes (node count) (setf (aref parent node) node))
       (dotimes (branch (length from))
         (setf (aref parent (circuits-root parent (aref from branch))) (circuits-root parent (aref to branch))))
-      (loop for name in (cdr ($circuits_nodes ends)) for node from 0
-            do (push name (aref members (circuits-root parent node))))
+      (loop for member in (cdr ($circuits_nodes ends)) for node from 0
+            do (push member (aref members (circuits-root parent node))))
       (dotimes (node count)
         (when (aref members node) (push (circuits-mlist (nreverse (aref members node))) pieces)))
       (circuits-mlist (nreverse pieces)))))
@@ -73,30 +73,30 @@
   (let ((near (make-array count :initial-element nil))
         (parent (make-array count :initial-element nil))
         (upward (make-array count :initial-element 0))
-        (depth (make-array count :initial-element nil)))
+        (level (make-array count :initial-element nil)))
     (dolist (branch (cdr tree))
       (let ((a (aref from (1- branch))) (b (aref to (1- branch))))
         (push (cons b branch) (aref near a))
         (push (cons a (- branch)) (aref near b))))
     (dotimes (root count)
-      (unless (aref depth root)
-        (setf (aref depth root) 0)
+      (unless (aref level root)
+        (setf (aref level root) 0)
         (let ((waiting (list root)))
           (loop while waiting
                 do (let ((node (pop waiting)))
                      (dolist (step (aref near node))
-                       (unless (aref depth (car step))
-                         (setf (aref depth (car step)) (1+ (aref depth node))
+                       (unless (aref level (car step))
+                         (setf (aref level (car step)) (1+ (aref level node))
                                (aref parent (car step)) node
                                (aref upward (car step)) (- (cdr step)))
                          (push (car step) waiting))))))))
-    (values parent upward depth)))
+    (values parent upward level)))
 
-(defun circuits-way (a b parent upward depth)
+(defun circuits-way (a b parent upward level)
   "The signed branches on the way from node A to node B in the forest."
   (let ((rising nil) (falling nil))
     (loop until (= a b)
-          do (if (>= (aref depth a) (aref depth b))
+          do (if (>= (aref level a) (aref level b))
                  (progn (push (aref upward a) rising) (setq a (aref parent a)))
                  (progn (push (- (aref upward b)) falling) (setq b (aref parent b)))))
     (append (nreverse rising) falling)))
@@ -104,12 +104,12 @@
 (defun $circuits_loops (ends tree links)
   "For each of LINKS its loop through TREE, in the order in which it is walked."
   (multiple-value-bind (from to count) (circuits-ends ends)
-    (multiple-value-bind (parent upward depth) (circuits-hang from to count tree)
+    (multiple-value-bind (parent upward level) (circuits-hang from to count tree)
       (circuits-mlist
        (mapcar (lambda (link)
                  (circuits-mlist
                   (mapcar (lambda (step) (circuits-mlist (list (abs step) (signum step))))
-                          (circuits-way (aref from (1- link)) (aref to (1- link)) parent upward depth))))
+                          (circuits-way (aref from (1- link)) (aref to (1- link)) parent upward level))))
                (cdr links))))))
 
 ;; Kirchhoff's laws, from the branches themselves and without the tree: the judge of all that is derived.
@@ -117,11 +117,11 @@
 (defun $circuits_current_sums (ends currents)
   "Sum of the currents that leave each node."
   (multiple-value-bind (from to count) (circuits-ends ends)
-    (let ((sums (make-array count :initial-element nil)))
-      (loop for current in (cdr currents) for branch from 0
-            do (push current (aref sums (aref from branch)))
-               (push (neg current) (aref sums (aref to branch))))
-      (circuits-mlist (map 'list #'addn sums (make-array count :initial-element nil))))))
+    (let ((totals (make-array count :initial-element nil)))
+      (loop for flow in (cdr currents) for branch from 0
+            do (push flow (aref totals (aref from branch)))
+               (push (neg flow) (aref totals (aref to branch))))
+      (circuits-mlist (map 'list #'addn totals (make-array count :initial-element nil))))))
 
 (defun $circuits_voltage_gaps (ends voltages)
   "For each branch its voltage less the difference of node potentials; the potentials are summed up from node to node."
