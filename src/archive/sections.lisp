@@ -3,7 +3,7 @@
 ;;; section can be replaced and everything else stays as it is. Column 1 decides: [ opens a header, # and empty lines are passed
 ;;; over, a blank or tab continues the entry above, anything else begins an entry. What stands before the first header is the
 ;;; section "archive". Values of the description are parsed at once; those of results when they are asked for, by
-;;; archive-entry-parsed. Look first at archive-split-text.
+;;; archive-entry-parsed. Look first at archive-split.
 
 (in-package :maxima)
 
@@ -121,7 +121,7 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 
 ;; The whole text
 
-(defun archive-split-text (text file &key (parse t))
+(defun archive-split (text file &key (parse t))
   "The sheet of TEXT, which messages name by FILE. With PARSE nil no value is parsed."
   (let* ((text (archive-simple-text text))
          (sheet (make-archive-sheet :text text :file file :newline (archive-line-end-of text)))
@@ -265,7 +265,7 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
     (let ((part (archive-open-text (reader-text reader) :file (reader-file reader) :line line :column column
                                    :start (car field) :end (cdr field))))
       (let ((value (archive-parse-reader! part :relations relations)))
-        (unless (and relations (eq (archive-kind value) :relation))
+        (unless (and relations (eq (archive-form-kind value) :relation))
           (archive-expect-scalar part (car field) value))
         (setf (reader-calls reader) (append (reader-calls part) (reader-calls reader)))
         value))))
@@ -337,8 +337,8 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 (defun archive-coupling-value (reader field to)
   "The mutual inductance, or k = coefficient, that stands from FIELD to TO."
   (let ((value (archive-field-value reader (cons (car field) to) :relations t)))
-    (when (and (eq (archive-kind value) :relation)
-               (not (and (eq (caar value) 'mequal) (eq (cadr value) '$k) (eq (archive-kind (caddr value)) :scalar))))
+    (when (and (eq (archive-form-kind value) :relation)
+               (not (and (eq (caar value) 'mequal) (eq (cadr value) '$k) (eq (archive-form-kind (caddr value)) :scalar))))
       (archive-fault reader (car field) "expected a mutual inductance, or k = coefficient"))
     value))
 
