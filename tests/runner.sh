@@ -5,7 +5,8 @@
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
 . "$here/check"
 DYNARCH_TEST_LIMIT=10
-export DYNARCH_TEST_LIMIT
+DYNARCH_TEST_HEAP=512
+export DYNARCH_TEST_LIMIT DYNARCH_TEST_HEAP
 
 run_tests() { # FOLDER SUITE..: sets log and status
   folder=$1
