@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/description" "archive/names" "archive/entries"))
+  (core-require "archive/description" "archive/names" "archive/sections" "archive/bytes"))
 
 (defun archive-check-groups (path text parts groups)
   "The archive made of GROUPS, with a warning on names that nothing declares."
@@ -20,12 +20,13 @@
 
 (defun archive-of-text (path text)
   "The checked archive of TEXT, the content of the file PATH."
-  (let ((split (archive-split text (archive-file-name path))))
-    (archive-check-groups path text split (archive-groups-of-split split (archive-file-name path)))))
+  (let ((sheet (archive-split text path)))
+    (archive-check-calls sheet)
+    (archive-check-groups path text sheet (archive-groups-of-sheet sheet))))
 
 (defun archive-open (path)
   "The checked archive in the file PATH."
-  (archive-of-text path (archive-read-bytes path)))
+  (archive-of-text path (archive-read-file path)))
 
 (defun archive-check-list (list)
   "The checked archive that a description list is; it has no file."

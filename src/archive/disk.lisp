@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/digest"))
+  (core-require "archive/bytes" "archive/digest"))
 
 ;; Calls of the C library
 
@@ -60,11 +60,6 @@
 
 ;; Names
 
-(defun archive-native (name)
-  "A pathname for NAME in which no character is special."
-  #+sbcl (sb-ext:parse-native-namestring name)
-  #-sbcl (pathname name))
-
 (defun archive-native-name (pathname)
   #+sbcl (sb-ext:native-namestring pathname)
   #-sbcl (namestring pathname))
@@ -82,7 +77,7 @@
   "The file that NAME is a link to, or NAME."
   (if (archive-special-p name)
       name
-      (let ((true (ignore-errors (probe-file (archive-native name)))))
+      (let ((true (ignore-errors (probe-file (archive-native-path name)))))
         (if true (archive-native-name true) name))))
 
 ;; A lock on the folder, so that two writers take turns; the system releases it when a process dies
@@ -119,25 +114,21 @@
   "A name for a draft in the folder of NAME that no other process uses."
   (format nil "~a.dynarch-~d-~d" (archive-folder name) (archive-process-number) (incf *archive-drafts*)))
 
-(defun archive-write-bytes (name bytes)
-  "Writes BYTES to the new file NAME and on to the disk."
-  (with-open-file (out (archive-native name) :direction :output :element-type '(unsigned-byte 8)
-                                             :if-exists :error :if-does-not-exist :create)
-    (write-sequence bytes out)
-    (archive-sync out)))
-
-(defun archive-file-bytes (name)
-  "The bytes of the file NAME."
-  (with-open-file (in (archive-native name) :element-type '(unsigned-byte 8))
-    (let ((bytes (make-array (file-length in) :element-type '(unsigned-byte 8))))
-      (read-sequence bytes in)
-      bytes)))
+(defmacro archive-or-fault (text &body body)
+  "BODY; an error in it becomes one that says TEXT."
+  `(handler-case (progn ,@body)
+     (error () (core-error "~a" ,text))))
 
 (defun archive-write-draft (draft bytes)
-  "Writes BYTES to DRAFT and makes sure that they arrived: not every Lisp reports a full disk."
-  (archive-write-bytes draft bytes)
-  (unless (equalp bytes (archive-file-bytes draft))
-    (error "the disk is full")))
+  "Writes BYTES to the new file DRAFT and makes sure that they arrived: not every Lisp reports a full disk."
+  (let ((out (archive-or-fault "no file can be made in its folder"
+               (open (archive-native-path draft) :direction :output :element-type '(unsigned-byte 8)
+                                                 :if-exists :error :if-does-not-exist :create))))
+    (archive-or-fault "the disk is full, or a limit on file sizes is reached"
+      (let ((written nil))
+        (unwind-protect (progn (write-sequence bytes out) (archive-sync out) (setf written t))
+          (close out :abort (not written))))
+      (unless (equalp bytes (archive-file-bytes draft)) (error "bytes are missing")))))
 
 (defun archive-in-folder (name function)
   "Calls FUNCTION with a name for the file NAME that this Lisp can open."
@@ -149,23 +140,25 @@
             (funcall function name))
   #-gcl (funcall function name))
 
-(defun archive-replace-file (name bytes)
-  "The file NAME has BYTES as its content afterwards, or is what it was and an error says why."
-  (archive-ignore-size-limit)
-  (when (and (probe-file (archive-native (archive-folder name))) (archive-exists-p name) (not (archive-may-write-p name)))
-    (error "it is read-only"))
-  (archive-in-folder
-   name
-   (lambda (name)
-     (let ((draft (archive-draft-name name)) (done nil))
-       (unwind-protect
-            (progn
-              (archive-write-draft draft bytes)
-              (archive-copy-mode name draft)
-              (unless (archive-rename draft name) (error "the new file cannot take its name"))
-              (setf done t))
-         (unless done (archive-unlink draft)))))))
-
 (defun archive-exists-p (name)
   #+gcl (and (si::stat name) t)
-  #-gcl (and (probe-file (archive-native name)) t))
+  #-gcl (and (probe-file (archive-native-path name)) t))
+
+(defun archive-put-file (name bytes unchanged-p)
+  "Gives the file NAME the content BYTES by way of a draft; nil, and no change, when UNCHANGED-P says no at the end."
+  (let ((draft (archive-draft-name name)) (done nil))
+    (unwind-protect
+         (progn
+           (archive-write-draft draft bytes)
+           (archive-copy-mode name draft)
+           (when (funcall unchanged-p)
+             (unless (archive-rename draft name) (core-error "the new file cannot take its name"))
+             (setf done t)))
+      (unless done (archive-unlink draft)))))
+
+(defun archive-replace-file (name bytes &optional (unchanged-p (constantly t)))
+  "The file NAME has BYTES as its content afterwards, or is what it was: nil when UNCHANGED-P said no, else an error."
+  (archive-ignore-size-limit)
+  (when (and (archive-exists-p name) (not (archive-may-write-p name)))
+    (core-error "it is read-only"))
+  (archive-in-folder name (lambda (name) (archive-put-file name bytes unchanged-p))))

@@ -5,7 +5,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/types"))
+  (core-require "archive/keys" "archive/types" "archive/sections"))
 
 (defstruct archive
   path         ; as the user gave it; nil for a description list
@@ -69,6 +69,44 @@
   "\" (pendulum.txt, line 7)\", or nothing where there is no file."
   (let ((line (archive-statement-line statement)))
     (if line (format nil " (line ~d)" line) "")))
+
+;;; From the sheet of a file
+
+(defun archive-groups-of-sheet (sheet)
+  "The groups of all sections of SHEET but results."
+  (loop for section in (sheet-sections sheet)
+        unless (archive-result-section-p section)
+          collect (make-archive-group
+                   :section (section-name section) :line (section-line section)
+                   :statements (mapcar (lambda (entry)
+                                         (make-archive-statement :key (entry-key entry) :line (entry-line entry)
+                                                                 :value (archive-entry-parsed entry)))
+                                       (section-entries section)))))
+
+(defparameter *archive-words-of-keys*
+  '(("rotor" "momentum" "speed" "control") ("algebra" "so" "e"))
+  "Words that look like functions and that a key defines.")
+
+(defun archive-known-functions (sheet)
+  "Names of the functions that the archive may call: the keys `functions' and `laws' name them."
+  (let ((system (archive-find-section sheet "system")))
+    (flet ((names (key)
+             (let* ((entry (and system (archive-find-entry system key))) (value (and entry (entry-value entry))))
+               (if (archive-list-p value) (cdr value) '()))))
+      (append (mapcar #'core-spelling (remove-if-not #'archive-symbol-p (names "functions")))
+              (loop for law in (names "laws")
+                    when (and (archive-equation-p law) (consp (second law)))
+                      collect (core-spelling (caar (second law))))))))
+
+(defun archive-check-calls (sheet)
+  "An error for the first function that is neither the archive's nor the user's."
+  (let ((known (archive-known-functions sheet)))
+    (dolist (section (sheet-sections sheet))
+      (unless (archive-result-section-p section)
+        (dolist (entry (section-entries section))
+          (archive-check-functions (entry-calls entry)
+                                   (append (cdr (assoc (entry-key entry) *archive-words-of-keys* :test #'equal)) known)
+                                   (sheet-file sheet)))))))
 
 ;;; From a description list
 

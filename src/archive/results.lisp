@@ -1,0 +1,183 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Sections [result NAME]: a value or a record as text, and back. `from' is the digest of what the result was computed
+;;; from, `own' that of its value: the first tells a stale result, the second one edited by hand. A result edited by hand
+;;; is used as it stands; one that is stale as well is an error, because nobody can tell which of the two is meant.
+;;; Look first at archive-result, which reads, and archive-result-text, which writes.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/check" "archive/digest" "archive/store"))
+
+(defparameter *archive-result-keys* '("from" "own" "form" "check" "left_out" "partial")
+  "Keys of a result section that are no part of its value.")
+
+(defparameter *archive-result-width* 96)
+
+(defvar *archive-analysis-keys*)
+
+;; Digests
+
+(defun archive-own-digest (parts)
+  "The digest of the value whose PARTS are (key . text)."
+  (archive-digest (format nil "~{~a~%~}"
+                          (loop for (key . text) in parts
+                                collect (format nil "~a=~a" key (archive-bare-text text))))))
+
+(defun archive-counts-p (section key kind keys)
+  "Whether KEY of SECTION counts among KEYS; \"*\" stands for all that makes the structure of the system."
+  (let ((whole (member "*" keys :test #'string=)))
+    (cond ((null key) whole)
+          ((not (archive-find-key kind (archive-table-word section) key)) nil)
+          ((string= section "archive") (string= key "kind"))
+          ((string/= section "system") whole)
+          ((member key keys :test #'string=) t)
+          (whole (not (member key *archive-analysis-keys* :test #'string=))))))
+
+(defun archive-counted-lines (archive keys)
+  "The entries of the description that count, as the writer spells them, in the order of the file."
+  (loop for group in (archive-groups archive)
+        for section = (archive-group-section group)
+        append (loop for statement in (archive-group-statements group)
+                     for key = (archive-statement-key statement)
+                     when (archive-counts-p section key (archive-kind archive) keys)
+                       collect (format nil "[~a] ~@[~a = ~]~a" section key
+                                       (archive-spelled (archive-statement-value statement))))))
+
+(defun archive-from-digest (archive keys extras)
+  "The digest of what a result depends on: KEYS of the description, and EXTRAS, arguments and options as texts."
+  (archive-digest (format nil "~{~a~%~}" (append (archive-counted-lines archive keys) extras))))
+
+;; Reading
+
+(defun archive-result-name (name) (concatenate 'string "result " name))
+
+(defun archive-result-section (archive name)
+  (and (archive-parts archive)
+       (archive-find-section (archive-parts archive) (archive-result-name name))))
+
+(defun archive-has-result (archive name)
+  (and (archive-result-section archive name) t))
+
+(defun archive-value-entries (section)
+  "The entries of a result SECTION that make its value."
+  (remove-if (lambda (entry) (member (entry-key entry) *archive-result-keys* :test #'string=))
+             (section-entries section)))
+
+(defun archive-section-own (section)
+  "The digest of the value that stands in SECTION."
+  (archive-own-digest (mapcar (lambda (entry) (cons (entry-key entry) (archive-entry-text entry)))
+                              (archive-value-entries section))))
+
+(defun archive-stated-digest (section key)
+  (let ((entry (archive-find-entry section key)))
+    (and entry (archive-entry-text entry))))
+
+(defun archive-edited-digest (archive name)
+  "The digest of the result NAME when it was edited by hand, else nil."
+  (let* ((section (archive-result-section archive name))
+         (own (and section (archive-section-own section))))
+    (and own (not (equal own (archive-stated-digest section "own"))) own)))
+
+(defun archive-check-result-calls (archive entry)
+  "Functions in a result are the user's own, or such that the derivation brought; Maxima's own commands are none."
+  (let ((functions (mapcar #'core-spelling (cdr ($core_get (archive-description archive) '$functions '((mlist)))))))
+    (loop for call in (entry-calls entry)
+          unless (or (member (first call) functions :test #'string=)
+                     (not (archive-maxima-function-p (first call))))
+            do (archive-check-functions (list call) '() (archive-path archive)))))
+
+(defun archive-numerical-p (name)
+  (let ((public (gethash name *core-publics*)))
+    (and public (core-public-numerical public))))
+
+(defun archive-entry-result (archive name entry)
+  (prog1 (archive-entry-parsed entry :relations t :doubles (archive-numerical-p name))
+    (archive-check-result-calls archive entry)))
+
+(defun archive-section-value (archive name section)
+  "The value in SECTION: that of the key `value', or the record of its parts."
+  (let* ((entries (archive-value-entries section))
+         (single (find "value" entries :key #'entry-key :test #'string=)))
+    (if single
+        (archive-entry-result archive name single)
+        (archive-list (mapcar (lambda (entry)
+                                (archive-equation (core-symbol (entry-key entry))
+                                                  (archive-entry-result archive name entry)))
+                              entries)))))
+
+(defun archive-fault-edited-and-stale (archive name section)
+  (core-error "~a:~d: [result ~a] was edited by hand, and what it was computed from has changed since; delete the ~
+               section, or give it back its old value"
+              (archive-path archive) (section-line section) name))
+
+(defun archive-result (archive name from)
+  "Two values: the stored result NAME, and :fresh, :edited, :stale or :absent. FROM is the digest it should have."
+  (let* ((section (archive-result-section archive name))
+         (edited (and section (archive-edited-digest archive name)))
+         (stated (and section (archive-stated-digest section "from")))
+         (stale (and stated (string/= stated from))))
+    (cond ((null section) (values nil :absent))
+          ((null (archive-value-entries section)) (values nil :stale))
+          ((and edited stale) (archive-fault-edited-and-stale archive name section))
+          (stale (values nil :stale))
+          (t (values (archive-section-value archive name section) (if (or edited (null stated)) :edited :fresh))))))
+
+;; Writing
+
+(defun archive-record-p (value)
+  "Whether VALUE is a list of equations that can stand as one key for each part."
+  (and (archive-list-p value) (cdr value)
+       (every #'archive-equation-p (cdr value))
+       (every #'archive-symbol-p (archive-lefts value))
+       (let ((names (mapcar #'core-spelling (archive-lefts value))))
+         (and (every #'archive-name-p names)
+              (= (length names) (length (remove-duplicates names :test #'string=)))
+              (notany (lambda (name) (member name (cons "value" *archive-result-keys*) :test #'string=)) names)))))
+
+(defun archive-wrapped (open items close indent)
+  "ITEMS, texts, in brackets: on one line where they fit, else a line for each, so that a person can read them."
+  (let ((line (format nil "~a~{~a~^, ~}~a" open items close)))
+    (if (<= (+ indent (length line)) *archive-result-width*)
+        line
+        (format nil (format nil "~~a~~{~~a~~^,~~%~~~d@t~~}~~a" (+ indent 1)) open items close))))
+
+(defun archive-value-text (value indent)
+  "VALUE as text that begins in column INDENT."
+  (if (and (archive-list-p value) (cdr value))
+      (archive-wrapped "[" (mapcar (lambda (item) (archive-value-text item (1+ indent))) (cdr value)) "]" indent)
+      (archive-spell value)))
+
+(defun archive-part (key value)
+  (cons key (archive-value-text value (+ 3 (length key)))))
+
+(defun archive-value-parts (value)
+  "VALUE as a list of (key . text)."
+  (if (archive-record-p value)
+      (mapcar (lambda (equation) (archive-part (core-spelling (second equation)) (third equation))) (cdr value))
+      (list (archive-part "value" value))))
+
+(defun archive-note-text (notes)
+  "A list of texts as one string of the archive."
+  (archive-spell (substitute-if #\Space (lambda (c) (< (char-code c) 32)) (format nil "~{~a~^; ~}" notes))))
+
+(defun archive-result-text (name value from form checks left-out)
+  "The lines of the section [result NAME], without the last line end."
+  (let ((parts (archive-value-parts value)))
+    (format nil "[result ~a]~%from = ~a~%own = ~a~%~@[form = ~a~%~]~@[check = ~a~%~]~@[left_out = ~a~%~]~{~a~^~%~}"
+            name from (archive-own-digest parts)
+            form
+            (and checks (archive-note-text checks))
+            (and left-out (archive-note-text left-out))
+            (loop for (key . text) in parts collect (format nil "~a = ~a" key text)))))
+
+(defun archive-save (archive results &optional elsewhere)
+  "Writes RESULTS, a list of (name :value :from :form :checks :left-out), into ARCHIVE's file or ELSEWHERE, at one stroke.
+True when done; else a warning, and the file is as it was."
+  (archive-save-sections
+   archive elsewhere
+   (lambda ()
+     (loop for (name . parts) in results
+           collect (cons (archive-result-name name)
+                         (archive-result-text name (getf parts :value) (getf parts :from) (getf parts :form)
+                                              (getf parts :checks) (getf parts :left-out)))))))

@@ -1,0 +1,138 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Writing into an archive: sections are replaced where they stand, new ones go to the end, everything else stays byte
+;;; for byte. The file is read again just before; if its description changed meanwhile nothing is written. A result that
+;;; cannot be written is still returned: all troubles end in one warning.
+;;; Look first at archive-save-sections, at the end.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/check" "archive/disk" "archive/sections"))
+
+(defparameter *archive-write-tries* 20 "How often a write begins anew when another process wrote in between.")
+
+;; Text with sections replaced
+
+(defun archive-file-lines (text newline)
+  "TEXT, whose lines end in a newline, with the line ends of the file."
+  (with-output-to-string (out)
+    (loop for c across text
+          do (if (char= c #\Newline) (write-string newline out) (write-char c out)))))
+
+(defun archive-ends-with-p (text end)
+  (and (>= (length text) (length end)) (string= end text :start2 (- (length text) (length end)))))
+
+(defun archive-with-new-section (text section newline)
+  "TEXT with SECTION at its end, a blank line before it."
+  (let ((open (if (archive-ends-with-p text (string #\Newline)) "" newline)))
+    (concatenate 'string text open
+                 (if (archive-ends-with-p text (concatenate 'string newline newline)) "" newline)
+                 section newline)))
+
+(defun archive-with-section (text name section file)
+  "TEXT of FILE with SECTION, text under its header, in the place of the section NAME, or at the end."
+  (let* ((sheet (archive-split text file :parse nil))
+         (lines (archive-file-lines section (sheet-newline sheet)))
+         (old (archive-find-section sheet name)))
+    (if old
+        (concatenate 'string (subseq text 0 (section-start old)) lines (subseq text (section-end old)))
+        (archive-with-new-section text lines (sheet-newline sheet)))))
+
+(defun archive-with-sections (text sections file)
+  "TEXT with all SECTIONS, a list of (name . text)."
+  (loop for (name . section) in sections
+        do (setq text (archive-with-section text name section file)))
+  text)
+
+;; Has the description changed meanwhile?
+
+(defun archive-bare-text (text)
+  "TEXT without comments and without blanks outside strings: what counts of a value."
+  (let ((end (length text)) (position 0))
+    (with-output-to-string (out)
+      (loop while (< position end)
+            do (let ((c (char text position)))
+                 (case c
+                   (#\" (let ((close (min (1- end) (archive-string-end text position end))))
+                          (write-string text out :start position :end (1+ close))
+                          (setq position close)))
+                   (#\# (setq position (1- (or (position #\Newline text :start position) end))))
+                   ((#\Space #\Tab #\Newline #\Return))
+                   (t (write-char c out)))
+                 (incf position))))))
+
+(defun archive-description-lines (sheet)
+  "What counts of the description in SHEET: sections, keys and values without comments and blanks; not the title."
+  (loop for section in (sheet-sections sheet)
+        unless (archive-result-section-p section)
+          append (cons (section-name section)
+                       (loop for entry in (section-entries section)
+                             unless (equal (entry-key entry) "title")
+                               collect (cons (entry-key entry) (archive-bare-text (archive-entry-text entry)))))))
+
+(defun archive-check-same-description (archive text)
+  (unless (equal (archive-description-lines (archive-parts archive))
+                 (archive-description-lines (archive-split text (archive-path archive) :parse nil)))
+    (core-error "its description changed while the result was computed; call the function again")))
+
+;; One write
+
+(defun archive-text-with-results (archive text sections target)
+  "The new text of TARGET, whose text is TEXT."
+  (when (equal target (archive-path archive))
+    (archive-check-same-description archive text))
+  (archive-with-sections text sections target))
+
+(defun archive-fresh-text (archive)
+  "The text of a new file for the results of ARCHIVE."
+  (format nil "# results of ~a~%dynarch = ~d~%kind = ~a~%" (archive-file-name (archive-path archive))
+          *archive-version* (archive-kind archive)))
+
+(defun archive-write-once (archive target sections)
+  "Writes SECTIONS into TARGET; nil when another process changed it in the meantime."
+  (let* ((file (archive-followed target))
+         (old (and (archive-exists-p file) (archive-file-bytes file)))
+         (text (if old (archive-text-of-bytes old target) (archive-fresh-text archive)))
+         (new (archive-text-with-results archive text sections target)))
+    (when (archive-replace-file file (archive-utf8 new)
+                                (lambda () (if old (equalp old (archive-file-bytes file)) (not (archive-exists-p file)))))
+      (archive-take-text archive target new)
+      t)))
+
+(defun archive-take-text (archive target text)
+  "ARCHIVE has TEXT from now on, when TARGET is its own file."
+  (when (equal target (archive-path archive))
+    (setf (archive-text archive) text
+          (archive-parts archive) (archive-split text target :parse nil))))
+
+(defun archive-write-sections (archive target sections)
+  (archive-with-lock ((archive-followed target))
+    (or (loop repeat *archive-write-tries* thereis (archive-write-once archive target sections))
+        (core-error "another program keeps changing it"))))
+
+;; Troubles become a warning
+
+(defun archive-failure (function)
+  "The text of the error in which FUNCTION ends, or nil."
+  (let ((*core-function* nil) (*merror-signals-$error-p* t) ($errormsg nil))
+    (handler-case (progn (funcall function) nil)
+      (maxima-$error () (core-error-text))
+      (error (condition) (remove #\Newline (princ-to-string condition))))))
+
+(defun archive-save-sections (archive elsewhere sections)
+  "Writes what the function SECTIONS returns, a list of (name . text), into ARCHIVE's file or ELSEWHERE. True when done."
+  (let ((target (or elsewhere (archive-path archive))))
+    (when target
+      (let ((trouble (archive-failure (lambda () (archive-write-sections archive target (funcall sections))))))
+        (when trouble (core-warn "the result is not saved in ~a: ~a" target trouble))
+        (not trouble)))))
+
+(defun archive-write-new (file text)
+  "Makes FILE an archive of TEXT; an error where that cannot be done."
+  (let ((trouble (archive-failure
+                  (lambda ()
+                    (let ((name (archive-followed file)))
+                      (archive-with-lock (name)
+                        (archive-replace-file name (archive-utf8 text))))))))
+    (when trouble (core-error "~a cannot be written: ~a" file trouble))
+    file))
