@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Read by Maxima at its start (-p): load("linmodel"), load("circuits") and load("analysis") are then found
-;;; from any folder. The repository is the parent of this file's folder.
+;;; from any folder, and so are the archives of examples, last. The repository is the parent of this file's folder.
 
 (in-package :maxima)
 
@@ -8,6 +8,6 @@
                                  :directory (butlast (pathname-directory *load-pathname*))
                                  :defaults *load-pathname*)))
   (setq $file_search_maxima
-        (list* '(mlist)
-               (concatenate 'string (namestring repository) "$$$.mac")
-               (rest $file_search_maxima))))
+        (append (list '(mlist) (concatenate 'string (namestring repository) "$$$.mac"))
+                (rest $file_search_maxima)
+                (list (concatenate 'string (namestring repository) "examples/$$$.txt")))))
