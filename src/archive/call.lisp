@@ -100,6 +100,27 @@
           (t (core-error "an option has the form name = value, found ~a; if the name has a value in your session, quote it: 'name = value"
                          (core-words (list equation)))))))
 
+(defun archive-overrulable-keys (kind)
+  "Names of the keys of [system] that a call may overrule."
+  (mapcar #'archive-key-name (archive-option-keys kind)))
+
+(defun archive-overruled-groups (groups name value)
+  "GROUPS with the statement NAME = VALUE in [system] instead of their own."
+  (mapcar (lambda (group)
+            (if (string= (archive-group-section group) "system")
+                (let ((copy (copy-archive-group group)))
+                  (setf (archive-group-statements copy)
+                        (append (remove name (archive-group-statements group) :key #'archive-statement-key :test #'equal)
+                                (list (make-archive-statement :key name :value value))))
+                  copy)
+                group))
+          groups))
+
+(defun archive-overruled (archive name value)
+  "ARCHIVE as if its [system] had NAME = VALUE, checked like any other."
+  (archive-check-groups (archive-path archive) (archive-text archive) (archive-parts archive)
+                        (archive-overruled-groups (archive-groups archive) name value)))
+
 (defun archive-known-options (call)
   (append (core-public-options (archive-call-public call))
           *archive-common-options*
@@ -114,9 +135,12 @@
           (core-error "there is no option ~a; the options are ~{~a~^, ~}" name (sort (copy-list known) #'string<)))
         (archive-give call name (caddr equation))
         (when (and (archive-call-archive call) (member name (archive-overrulable-keys (archive-call-kind call)) :test #'equal))
-          (setf (archive-call-archive call)
-                (archive-overruled (archive-call-archive call) name (caddr equation))))))
+          (archive-overrule call name (caddr equation)))))
     (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil))))
+
+(defun archive-overrule (call name value)
+  (setf (archive-call-archive call) (archive-overruled (archive-call-archive call) name value)
+        (archive-call-facts call) (archive-facts (archive-description (archive-call-archive call)))))
 
 (defun archive-option (call name default)
   (gethash name (archive-call-given call) default))

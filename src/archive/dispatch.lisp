@@ -1,14 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The dispatcher: turns a call such as Lagrangian("pendulum.txt", save = false) into quantities, follows the register's rules
 ;;; from the target down to the keys of the archive, runs each pure function in the guard, saves the steps, returns the result.
-;;; Look first at archive-call, then at archive-value.
+;;; Look first at archive-dispatch, then at archive-value.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/call" "archive/steps"))
 
-(defun archive-call (name arguments)
+(defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (multiple-value-bind (value text)
       (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '()) (*core-started* (get-internal-real-time))
@@ -53,3 +53,5 @@
                               (lambda () (archive-abbreviated call (archive-value call target))))))
     (archive-save-steps call)
     value))
+
+(setq *core-dispatcher* #'archive-dispatch)

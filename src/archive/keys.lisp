@@ -10,6 +10,10 @@
 
 (defparameter *archive-kinds* '("mechanical" "lagrangian" "circuit" "equations" "poisson"))
 
+(defparameter *archive-analysis-keys*
+  '("title" "where" "abbreviations" "unknowns" "solution" "values" "start" "time")
+  "Keys that are no part of the structure of a system.")
+
 (defparameter *archive-sections*
   '(("top" :all :one "the lines before the first header")
     ("system" :all :one "the whole system")
@@ -153,7 +157,7 @@
      ("mass" :expression :required "mass" "Mass")
      ("inertia" :inertia nil "inertia about the joint; a point mass at the centre unless given" "Inertia about the joint")
      ("inertia_centre" :inertia nil "inertia about the centre of mass, instead" "Inertia about the centre of mass")
-     ("momentum" :vector "[0, 0, 0]" "constant relative momentum of rotors inside, in the body's axes"
+     ("momentum" :vector nil "constant relative momentum of rotors inside, in the body's axes"
       "Constant momentum of rotors inside")
      ("own_spin" :spin nil "turn about a body axis that enters omega but not the axes" "Own spin")
      ("rotor" :rotor nil "how the turn of a body with one axis is driven" "Rotor"))

@@ -14,8 +14,6 @@
 
 (defparameter *archive-result-width* 96)
 
-(defvar *archive-analysis-keys*)
-
 ;; Digests
 
 (defun archive-own-digest (parts)

@@ -14,13 +14,11 @@
 
 (defstruct archive-step name value from checks left-out)
 
-(defparameter *archive-analysis-keys*
-  '("title" "where" "abbreviations" "unknowns" "solution" "values" "start" "time")
-  "Keys that are no part of the structure of a system.")
-
 (defun archive-rule (call name)
   (core-find-rule name (archive-call-kind call)
-                  (lambda (option) (nth-value 1 (gethash option (archive-call-given call))))))
+                  (lambda (option)
+                    (or (nth-value 1 (gethash option (archive-call-given call)))
+                        (nth-value 1 (archive-key-value call option))))))
 
 (defun archive-input-name (input) (if (consp input) (car input) input))
 
@@ -44,13 +42,11 @@
   (multiple-value-bind (value given) (gethash name (archive-call-given call))
     (let ((rule (archive-rule call name)))
       (cond (given (push (format nil "~a = ~a" name (archive-spell value)) (archive-need-extras need)))
-            ((equal name "description")
-             (push "*" (archive-need-keys need))
-             (archive-add-overrules call need))
+            ((equal name "description") (push "*" (archive-need-keys need)))
             ((null rule) (push name (archive-need-keys need)))
-            ((core-rule-same rule) (archive-add-needs call need (core-rule-same rule)))
-            ((core-rule-record rule) (archive-add-needs call need (core-rule-record rule)))
-            (t (dolist (input (core-rule-inputs rule))
+            ((rule-same rule) (archive-add-needs call need (rule-same rule)))
+            ((rule-record rule) (archive-add-needs call need (rule-record rule)))
+            (t (dolist (input (rule-inputs rule))
                  (archive-add-needs call need (archive-input-name input)))
                (archive-add-edited call name need))))))
 
@@ -58,14 +54,6 @@
   (let ((more (archive-needs call name)))
     (setf (archive-need-keys need) (union (archive-need-keys need) (archive-need-keys more) :test #'equal)
           (archive-need-extras need) (union (archive-need-extras need) (archive-need-extras more) :test #'equal))))
-
-(defun archive-add-overrules (call need)
-  "Keys of the structure that the call overrules."
-  (maphash (lambda (name value)
-             (when (and (member name (archive-overrulable-keys (archive-call-kind call)) :test #'equal)
-                        (not (member name *archive-analysis-keys* :test #'equal)))
-               (push (format nil "~a = ~a" name (archive-spell value)) (archive-need-extras need))))
-           (archive-call-given call)))
 
 (defun archive-add-edited (call name need)
   "A result edited by hand is itself something to depend on."
@@ -135,9 +123,9 @@
        (archive-rule-value call name rule)))))
 
 (defun archive-rule-value (call name rule)
-  (cond ((core-rule-same rule) (values (archive-value call (core-rule-same rule)) t))
-        ((core-rule-record rule)
-         (values (archive-field (archive-value call (core-rule-record rule)) (core-rule-field rule)) t))
+  (cond ((rule-same rule) (values (archive-value call (rule-same rule)) t))
+        ((rule-record rule)
+         (values (archive-field (archive-value call (rule-record rule)) (rule-field rule)) t))
         (t (values (archive-compute call name rule) t))))
 
 (defun archive-field (record field)
@@ -150,12 +138,12 @@
                            (if (consp input)
                                (archive-value call (car input) (cadr input))
                                (archive-value call input)))
-                         (core-rule-inputs rule)))
+                         (rule-inputs rule)))
          (*core-checks* '()) (*core-left-out* '())
          (began (get-internal-real-time)))
-    (core-require (core-rule-part rule))
+    (core-require (rule-part rule))
     (core-progress "computing ~a" name)
-    (let ((value (mfuncall-with (core-rule-function rule) inputs)))
+    (let ((value (mfuncall-with (rule-function rule) inputs)))
       (when (gethash name *core-publics*) (archive-note-step call name value))
       (archive-report-time call name began)
       value)))

@@ -72,7 +72,7 @@
 (defun core-quietly (function)
   "Calls FUNCTION with compiler chatter switched off."
   (let ((*standard-output* (make-broadcast-stream)) (*error-output* (make-broadcast-stream))
-        (*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil)
+        (*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil) (*merror-signals-$error-p* t)
         #+gcl (compiler::*cc* (concatenate 'string compiler::*cc* " -w")))
     (handler-bind ((warning #'muffle-warning)) (funcall function))))
 

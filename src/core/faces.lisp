@@ -7,6 +7,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "core/help"))
 
+(defvar *core-dispatcher* nil "What answers a call: a function of a public name and the arguments. The dispatcher's part sets it.")
 (defvar *core-faces* '() "Faces loaded: (name . version).")
 
 (defun core-load-registers ()
@@ -14,13 +15,13 @@
     (when (core-existing-file (format nil "~asrc/~a/register.lisp" *core-root* room))
       (core-require (concatenate 'string room "/register")))))
 
-(defun core-install (name)
-  "Makes the public function NAME callable."
-  (let ((symbol (core-symbol name)))
+(defun core-install (public)
+  "Makes the public function PUBLIC callable. (Maxima has declared `name' special: no closure may capture it.)"
+  (let ((symbol (core-symbol public)))
     (setf (symbol-function symbol)
           (lambda (&rest arguments)
             (core-require "archive/dispatch")
-            (funcall 'archive-call name arguments)))
+            (funcall *core-dispatcher* public arguments)))
     symbol))
 
 (defun $core_face (face version &rest names)

@@ -16,7 +16,8 @@
   kinds      ; kinds of archive the dialog may ask for
   numerical) ; t where `values', `start' and `time' count
 
-(defstruct core-rule kinds given part function inputs same record field)
+(defstruct (core-rule (:conc-name rule-))
+  kinds given part function inputs same record field)
 
 (defun core-public (name &key forms trailing options kinds numerical)
   "States a public function. FORMS of calls on expressions; TRAILING arguments after a system."
@@ -24,7 +25,7 @@
         (make-core-public :name name :forms forms :trailing trailing :options options :kinds kinds :numerical numerical)))
 
 (defun core-same-case-p (rule other)
-  (and (equal (core-rule-kinds rule) (core-rule-kinds other)) (equal (core-rule-given rule) (core-rule-given other))))
+  (and (equal (rule-kinds rule) (rule-kinds other)) (equal (rule-given rule) (rule-given other))))
 
 (defun core-add-rule (name rule)
   (setf (gethash name *core-rules*)
@@ -35,12 +36,12 @@
   (core-add-rule name (make-core-rule :kinds kinds :part part :function (core-symbol function) :inputs inputs)))
 
 (defun core-rule-given (option name kinds part function &rest inputs)
-  "The same where OPTION is given in the call."
+  "The same where OPTION is given, in the call or as a key of the archive."
   (core-add-rule name (make-core-rule :kinds kinds :given option :part part :function (core-symbol function) :inputs inputs)))
 
-(defun core-rule-same-as (name kinds other)
+(defun core-rule-same-as (name kinds other &key given)
   "NAME is the quantity or key OTHER under another name."
-  (core-add-rule name (make-core-rule :kinds kinds :same other)))
+  (core-add-rule name (make-core-rule :kinds kinds :given given :same other)))
 
 (defun core-rule-field (name kinds record field)
   "NAME is the part FIELD of the quantity RECORD."
@@ -57,12 +58,12 @@
 
 (defun core-rule-fits (rule kind given)
   "Whether RULE serves an archive of KIND; GIVEN tells of an option whether the call has it."
-  (and (or (eq (core-rule-kinds rule) :any) (member kind (core-rule-kinds rule) :test #'equal))
-       (or (null (core-rule-given rule)) (funcall given (core-rule-given rule)))))
+  (and (or (eq (rule-kinds rule) :any) (member kind (rule-kinds rule) :test #'equal))
+       (or (null (rule-given rule)) (funcall given (rule-given rule)))))
 
 (defun core-rule-rank (rule)
   "The special before the general."
-  (+ (if (core-rule-given rule) 0 1) (if (eq (core-rule-kinds rule) :any) 2 0)))
+  (+ (if (rule-given rule) 0 1) (if (eq (rule-kinds rule) :any) 2 0)))
 
 (defun core-find-rule (name kind given)
   "The rule for quantity NAME, or nil."

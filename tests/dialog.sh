@@ -1,0 +1,99 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The dialog by piped input: a whole description, answers put right, the end of input, a file that exists.
+
+case $0 in */*) cd "${0%/*}/.." ;; esac
+repository=$PWD
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+passed=0 failed=0
+
+# expect NAME STATUS: counts one case
+expect() {
+  if [ "$2" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)); echo "FAILED dialog: $1"; sed 's/^/    /' answer | tail -n 25; fi
+}
+
+# ask CALL: hands the answers on standard input to a session that makes the call
+ask() {
+  { printf 'load("linmodel")$ load("circuits")$ display2d: false$\n%s;\n' "$1"; cat; } |
+    timeout -k 5 120 "$repository/tools/maxima" --very-quiet >answer 2>&1
+}
+
+pendulum() {
+  cat <<'END'
+1
+[phi, theta]
+[m > 0, l > 0, g > 0];
+
+
+
+constant
+[0, 0, -g]
+.
+
+[3, 1]
+[phi, theta]
+
+
+[0, 0, l]
+m
+[[m*l^2, 0, 0], [0, m*l^2, 0], [0, 0, 0]]
+.
+
+
+
+
+spherical pendulum
+END
+}
+
+{ pendulum; echo; echo; } | ask 'Lagrangian()'
+[ -f mechanical.txt ] && grep -q 'title = "spherical pendulum"' mechanical.txt && grep -q '^\[result Lagrangian\]' mechanical.txt
+expect 'a whole description is written with its result' $?
+grep -q "Lagrangian(\"mechanical.txt\");" answer
+expect 'the call that repeats the run is shown' $?
+tr -d ' \n' <answer | grep -q "sin(theta)^2"
+expect 'the answer is shown' $?
+grep -q "1  system: bodies = 1" answer && grep -q "body 1: mass = m" answer
+expect 'the description is echoed' $?
+
+rm -f mechanical.txt
+{ printf 'two\n?\n1;\nphi theta\n'; pendulum | tail -n +2; printf '99\n1\n1\n\nother.txt\n'; } | ask 'Lagrangian()'
+[ -f other.txt ] && [ ! -f mechanical.txt ] && grep -q 'a positive integer' answer && grep -q 'a list of names' answer
+expect 'wrong answers are explained and asked again' $?
+
+rm -f other.txt
+pendulum | head -n 9 | ask 'Lagrangian()'
+[ -z "$(ls | grep -v answer)" ] && grep -q 'input ended' answer
+expect 'the end of input leaves nothing behind' $?
+
+echo 'mine' >mechanical.txt
+{ pendulum; echo; echo; echo no; echo new.txt; } | ask 'Lagrangian()'
+[ "$(cat mechanical.txt)" = mine ] && [ -f new.txt ]
+expect 'a file is not replaced without yes' $?
+{ pendulum; echo; echo; echo yes; } | ask 'Lagrangian()'
+grep -q 'coordinates = \[phi, theta\]' mechanical.txt
+expect 'a file is replaced after yes' $?
+
+circuit() {
+  cat <<'END'
+[L1 > 0, C1 > 0, R1 > 0]
+.
+1 -> 2 L L1 i1
+1 -> 2 L
+2 -> 1 C C1 u1
+2 -> 1 R R1
+
+
+
+
+oscillator
+END
+}
+{ circuit; echo; echo; } | ask 'MixedPotential()'
+[ -f circuit.txt ] && grep -q '^1 -> 2 L L1 i1' circuit.txt && grep -q '^\[result MixedPotential\]' circuit.txt
+expect 'a circuit is asked row by row' $?
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
