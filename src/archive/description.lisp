@@ -207,7 +207,7 @@
 
 (defun archive-graph-group (rows)
   "The branches of a graph as a group."
-  (make-archive-group :section "branches" :from-graph t
+  (make-archive-group :section "branches"
                       :statements (mapcar (lambda (row) (make-archive-statement :value row)) (cdr rows))))
 
 (defun archive-without-graph (equations sign-given)

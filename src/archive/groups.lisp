@@ -18,8 +18,7 @@
 (defstruct archive-group
   section      ; "archive" (before the first header), "system", "body 2", ...
   line         ; of the header; nil without file
-  statements
-  from-graph)  ; t for branches that came from the key graph
+  statements)
 
 (defstruct archive-statement
   key          ; text; nil for a row
@@ -37,16 +36,28 @@
 (defun archive-find-statement (group key)
   (and group (find key (archive-group-statements group) :key #'archive-statement-key :test #'equal)))
 
+(defun archive-find-row (group key)
+  "The statement of the row with the number KEY, or with the label or value KEY."
+  (and group key
+       (if (integerp key)
+           (nth (1- key) (archive-group-statements group))
+           (find-if (lambda (statement) (archive-row-called-p (archive-statement-value statement) key))
+                    (archive-group-statements group)))))
+
+(defun archive-row-called-p (row name)
+  "Whether NAME is the label or a field of ROW."
+  (let ((symbol (core-symbol name)))
+    (and (consp row)
+         (if (archive-equation-p row) (eq (second row) symbol) (and (member symbol (cdr row)) t)))))
+
 (defun archive-line (groups section key)
-  "The line of KEY (a name, or the number of a row) in SECTION, or of the section's header, or nil."
-  (let ((group (archive-find-group groups section)))
-    (when (and group (archive-group-from-graph group))
-      (return-from archive-line (archive-line groups "system" "graph")))
-    (let ((statement (and group (if (integerp key)
-                                    (nth (1- key) (archive-group-statements group))
-                                    (archive-find-statement group key)))))
-      (or (and statement (archive-statement-line statement))
-          (and group (archive-group-line group))))))
+  "The line of KEY (a name, or the number or label of a row) in SECTION, or of the section's header, or nil."
+  (let* ((group (archive-find-group groups section))
+         (statement (or (archive-find-statement group key)
+                        (and (archive-row-section-p section) (archive-find-row group key)))))
+    (cond (statement (archive-statement-line statement))
+          (group (archive-group-line group))
+          ((string= section "branches") (archive-line groups "system" "graph")))))
 
 (defun archive-line-place (path line)
   (and path line (format nil "~a, line ~d" (archive-file-name path) line)))
