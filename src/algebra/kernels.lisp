@@ -336,11 +336,14 @@
 (defun algebra-product (factors)
   (let ((product (cons 1 1)))
     (dolist (factor factors product)
+      (algebra-guard-product (car product) (car factor))
       (setq product (rattimes product factor t)))))
 
 (defun algebra-power (base n)
   (when (and (minusp n) (algebra-vanishes-p (car base)))
     (core-error "division by zero"))
+  (algebra-guard-power (car base) n)
+  (algebra-guard-power (cdr base) n)
   (ratexpt base n))
 
 (defun algebra-exponential (terms)

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/reduction" "algebra/readable"
+  (core-require "algebra/size" "algebra/kernels" "algebra/reduction" "algebra/contents"
                 "algebra/normal"))
 
 ;;; Matrices of expressions, of quotients, of polynomials.
@@ -82,6 +82,7 @@
                        (unless (pzerop entry)
                          (let ((minor (minor row (logandc2 columns (ash 1 j)))))
                            (unless (pzerop minor)
+                             (algebra-guard-product entry minor)
                              (setq sum (pplus sum (ptimes (if (plusp sign) entry (pminus entry))
                                                           minor)))))))
                      (setq sign (- sign)))))))
@@ -93,10 +94,21 @@
           collect (funcall minor k (1- (ash 1 k))))))
 
 (defun algebra-determinant-polynomial (matrix)
-  (let ((n (array-dimension matrix 0)))
-    (if (> n 10)
-        (algebra-bareiss matrix)
-        (funcall (algebra-minor-table matrix) n (1- (ash 1 n))))))
+  (let* ((n (array-dimension matrix 0))
+         (balanced (algebra-copy-array matrix))
+         (content (algebra-poly-product (append (algebra-row-contents balanced)
+                                                (algebra-column-contents balanced)))))
+    (ptimes content
+            (if (algebra-eliminate-p matrix)
+                (algebra-bareiss balanced)
+                (funcall (algebra-minor-table balanced) n (1- (ash 1 n)))))))
+
+(defun algebra-eliminate-p (matrix)
+  "Large and full: minors are too many."
+  (let* ((n (array-dimension matrix 0))
+         (filled (loop for i below n
+                       sum (loop for j below n count (not (pzerop (aref matrix i j)))))))
+    (and (> n 10) (> filled (* 4 n)))))
 
 (defun algebra-quotient-determinant (rows)
   (multiple-value-bind (matrix denominator) (algebra-clear-rows rows)
@@ -123,9 +135,13 @@
     (ptimes sign (aref a (1- n) (1- n)))))
 
 (defun algebra-bareiss-entry (a i j k previous)
-  (pquotient (pdifference (ptimes (aref a i j) (aref a k k))
-                          (ptimes (aref a i k) (aref a k j)))
+  (pquotient (pdifference (algebra-guarded-times (aref a i j) (aref a k k))
+                          (algebra-guarded-times (aref a i k) (aref a k j)))
              previous))
+
+(defun algebra-guarded-times (p q)
+  (algebra-guard-product p q)
+  (ptimes p q))
 
 (defun algebra-copy-array (matrix)
   (let* ((n (array-dimension matrix 0))
@@ -181,14 +197,32 @@
 
 (defun algebra-cofactors (matrix)
   "The array of (-1)^(i+j) * minor without row i and column j."
+  (let* ((balanced (algebra-copy-array matrix))
+         (rows (algebra-row-contents balanced))
+         (columns (algebra-column-contents balanced))
+         (cofactors (algebra-balanced-cofactors balanced))
+         (n (array-dimension matrix 0)))
+    (dotimes (i n cofactors)
+      (dotimes (j n)
+        (setf (aref cofactors i j)
+              (ptimes (ptimes (algebra-product-without rows i)
+                              (algebra-product-without columns j))
+                      (aref cofactors i j)))))))
+
+(defun algebra-balanced-cofactors (matrix)
   (let* ((n (array-dimension matrix 0))
          (all (1- (ash 1 n)))
+         (symmetric (algebra-symmetric-p matrix))
          (cofactors (make-array (list n n))))
-    (dotimes (i n cofactors)
-      (let ((minor (algebra-minor-table (algebra-row-last matrix i))))
-        (dotimes (j n)
-          (let ((value (funcall minor (1- n) (logandc2 all (ash 1 j)))))
-            (setf (aref cofactors i j) (if (evenp (+ i j)) value (pminus value)))))))))
+    (loop for i from (1- n) downto 0
+          do (let ((minor (algebra-minor-table (algebra-row-last matrix i))))
+               (dotimes (j n)
+                 (setf (aref cofactors i j)
+                       (if (and symmetric (> j i))
+                           (aref cofactors j i)
+                           (let ((value (funcall minor (1- n) (logandc2 all (ash 1 j)))))
+                             (if (evenp (+ i j)) value (pminus value))))))))
+    cofactors))
 
 (defun algebra-row-last (matrix row)
   "MATRIX with ROW moved to the end."
@@ -201,18 +235,21 @@
 
 (defun algebra-adjugate-matrix (cofactors denominators)
   "Cofactors of the cleared rows, each over the denominators of the rows it comes from."
-  (let ((n (array-dimension cofactors 0)))
-    (cons '($matrix simp)
-          (loop for i below n
-                collect (cons '(mlist simp)
-                              (loop for j below n
-                                    collect (algebra-general-reduced
-                                             (cons (aref cofactors j i)
-                                                   (algebra-product-without denominators j)))))))))
+  (let* ((n (array-dimension cofactors 0))
+         (symmetric (and (algebra-symmetric-p cofactors) (every #'onep1 denominators)))
+         (entries (make-array (list n n))))
+    (dotimes (i n)
+      (dotimes (j n)
+        (setf (aref entries i j)
+              (if (and symmetric (< j i))
+                  (aref entries j i)
+                  (algebra-general-reduced
+                   (cons (aref cofactors j i) (algebra-product-without denominators j)))))))
+    (algebra-array-matrix entries)))
 
-(defun algebra-product-without (polynomials place)
-  (let ((product 1))
-    (loop for p in polynomials
-          for k from 0
-          unless (= k place) do (setq product (ptimes product p)))
-    product))
+(defun algebra-array-matrix (entries)
+  (cons '($matrix simp)
+        (loop for i below (array-dimension entries 0)
+              collect (cons '(mlist simp)
+                            (loop for j below (array-dimension entries 1)
+                                  collect (aref entries i j))))))

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/roots" "algebra/reduction" "algebra/readable"))
+  (core-require "algebra/kernels" "algebra/roots" "algebra/reduction" "algebra/readable" "algebra/general"))
 
 (defun $algebra_normal (e)
   (algebra-map-bags #'algebra-normal-form e))
@@ -96,10 +96,7 @@
 
 (defun algebra-expanded-quotient (n d)
   "The terms of N, each over D and cancelled against it."
-  (let ((expanded (let (($ratexpand t)) (simplify (pdisrep n)))))
+  (let ((expanded (algebra-expanded n)))
     (cond ((eql d 1) expanded)
           ((algebra-one-term-p d) ($expand (div expanded (algebra-general d)) 1 1))
           (t (algebra-general-quotient n d)))))
-
-(defun algebra-one-term-p (p)
-  (or (atom p) (and (null (cdddr p)) (algebra-one-term-p (caddr p)))))

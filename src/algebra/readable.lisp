@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; From polynomials in kernels to expressions a person reads.  A coefficient of parameters and
+;;; Sines and cosines as a person reads them.  A coefficient of parameters and
 ;;; velocities is a polynomial in sines and cosines over the rationals, known modulo s^2 + c^2 = 1.
 ;;; Parity in each s and c splits it into classes that the relation does not mix; of each class the
 ;;; shortest form is chosen among: in c^2, in s^2, homogeneous in c^2 and s^2 (which gives s^2*c^2).
@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/reduction"))
+  (core-require "algebra/kernels" "algebra/reduction"))
 
 (defun algebra-readable (p)
   "A polynomial equal to P modulo the relations, short in sines and cosines."
@@ -85,11 +85,7 @@
 
 (defun algebra-term-count (p)
   "Number of terms, then of factors."
-  (labels ((terms (p) (if (atom p)
-                          1
-                          (loop for (nil coefficient) on (cdr p) by #'cddr
-                                sum (terms coefficient)))))
-    (+ (* 1000 (terms p)) (algebra-poly-size p))))
+  (+ (* 1000 (algebra-monomials p)) (algebra-poly-size p)))
 
 (defun algebra-homogeneous (p unit)
   "P of even powers of c (times c, s or c*s), made homogeneous in c^2, s^2 by c^2 + s^2 = 1."
@@ -141,18 +137,3 @@
                      (push (list exponent coefficient) powers)))))
       (collect p 1)
       powers)))
-
-;;; General expressions.
-
-(defun algebra-general (p)
-  "The expression of the polynomial P: expanded or nested, whichever is shorter."
-  (let ((nested (simplify (let (($ratexpand nil)) (pdisrep p))))
-        (expanded (if (< (algebra-poly-size p) 4000)
-                      (let (($ratexpand t)) (simplify (pdisrep p))))))
-    (if (and expanded (<= (algebra-size expanded) (* 5/4 (algebra-size nested))))
-        expanded
-        nested)))
-
-(defun algebra-general-quotient (n d)
-  (let ((sign (if (pminusp d) -1 1)))
-    (div (algebra-general (ptimes sign n)) (algebra-general (ptimes sign d)))))

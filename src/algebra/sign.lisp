@@ -72,9 +72,9 @@
 (defun algebra-sum-sign (terms)
   "Terms of one sign; else what the facts say of the whole."
   (let ((signs (mapcar #'algebra-part-sign terms)))
-    (cond ((subsetp signs '($pos $pz $zero)) (if (member '$pos signs) '$pos '$pz))
-          ((subsetp signs '($neg $nz $zero)) (if (member '$neg signs) '$neg '$nz))
-          (t (algebra-fact-sign (addn terms nil))))))
+    (if (eq (algebra-sign-of-all signs) '$unknown)
+        (algebra-fact-sign (addn terms nil))
+        (algebra-sign-of-all signs))))
 
 (defun algebra-product-sign (factors)
   (let ((sign '$pos))
@@ -126,39 +126,73 @@
           (t '$unknown))))
 
 (defun algebra-shifted-sign (e)
-  "Put x = u + d for each fact x > u of a symbol x, d positive, and look at the terms."
-  (let ((shifted e) (positive nil))
-    (dolist (fact (algebra-ordered-facts))
-      (destructuring-bind (x . u) fact
-        (unless (or (not (among x shifted)) (eql u 0))
-          (let ((d (gensym)))
-            (push d positive)
-            (setq shifted (maxima-substitute (add u d) x shifted))))))
-    (if positive
-        (algebra-sign-with-positive ($expand shifted) positive)
+  "Put x = u + d for facts x > u, d positive, one after the other, until all terms have one sign."
+  (let ((facts (algebra-gaps (cdr ($facts)))))
+    (if facts
+        (algebra-shift e facts nil 4)
         '$unknown)))
 
-(defun algebra-ordered-facts ()
-  "(x . u) for each fact x > u or u > x of a symbol, u not zero."
-  (loop for fact in (cdr ($facts))
-        when (and (consp fact) (eq (caar fact) 'mgreaterp) (symbolp (cadr fact))
-                  (not ($constantp (cadr fact)))
-                  (not ($constantp (caddr fact))))
-          collect (cons (cadr fact) (caddr fact))))
+(defun algebra-gaps (facts)
+  "(gap . strict) for each fact gap > 0 or gap >= 0 that is more than the sign of a symbol."
+  (loop for fact in facts
+        when (and (consp fact) (member (caar fact) '(mgreaterp mgeqp)))
+          append (let ((gap (sub (cadr fact) (caddr fact))))
+                   (if (mplusp gap) (list (cons gap (eq (caar fact) 'mgreaterp)))))))
 
-(defun algebra-sign-with-positive (e symbols)
-  (let ((signs (loop for term in (if (mplusp e) (cdr e) (list e))
-                     collect (algebra-term-sign term symbols))))
-    (cond ((subsetp signs '($pos $pz $zero)) (if (member '$pos signs) '$pos '$pz))
-          ((subsetp signs '($neg $nz $zero)) (if (member '$neg signs) '$neg '$nz))
-          (t '$unknown))))
+(defun algebra-shift (e gaps signs depth)
+  "The sign of E with some of the GAPS put in; SIGNS of the symbols that stand for gaps."
+  (let ((sign (algebra-sign-with e signs)))
+    (if (or (not (eq sign '$unknown)) (zerop depth))
+        sign
+        (loop for (gap . strict) in gaps
+              do (dolist (x (algebra-shiftable gap e))
+                   (let* ((d (gensym))
+                          (shifted ($expand (maxima-substitute
+                                             (algebra-solved-gap gap x d) x e)))
+                          (sign (algebra-shift shifted (remove gap gaps :key #'car :test #'eq)
+                                               (acons d (if strict '$pos '$pz) signs)
+                                               (1- depth))))
+                     (unless (eq sign '$unknown)
+                       (return-from algebra-shift sign))))
+              finally (return '$unknown)))))
 
-(defun algebra-term-sign (term symbols)
+(defun algebra-shiftable (gap e)
+  "Symbols of E that stand in the sum GAP as a term x or -x and nowhere else."
+  (loop for term in (cdr gap)
+        for x = (if (and (mtimesp term) (eql (cadr term) -1) (null (cdddr term)))
+                    (caddr term)
+                    term)
+        when (and (symbolp x) (not ($constantp x)) (among x e)
+                  (not (among x (remove term (cdr gap) :test #'eq))))
+          collect x))
+
+(defun algebra-solved-gap (gap x d)
+  "u + d or u - d from gap = d: the value of X."
+  (let ((rest (maxima-substitute 0 x gap)))
+    (if (member x (cdr gap) :test #'eq)
+        (sub d rest)
+        (sub rest d))))
+
+(defun algebra-sign-with (e signs)
+  (algebra-sign-of-all
+   (loop for term in (if (mplusp e) (cdr e) (list e))
+         collect (algebra-term-sign term signs))))
+
+(defun algebra-sign-of-all (signs)
+  "The sign of a sum of terms with these SIGNS."
+  (cond ((subsetp signs '($zero)) '$zero)
+        ((subsetp signs '($pos $pz $zero)) (if (member '$pos signs) '$pos '$pz))
+        ((subsetp signs '($neg $nz $zero)) (if (member '$neg signs) '$neg '$nz))
+        (t '$unknown)))
+
+(defun algebra-term-sign (term signs)
   (let ((sign '$pos))
     (dolist (factor (if (mtimesp term) (cdr term) (list term)) sign)
-      (unless (or (member factor symbols)
-                  (and (mexptp factor) (member (cadr factor) symbols)))
-        (setq sign (algebra-times-sign sign (algebra-part-sign factor)))))))
+      (setq sign (algebra-times-sign sign (algebra-factor-sign factor signs))))))
+
+(defun algebra-factor-sign (factor signs)
+  (let ((known (cdr (assoc (if (mexptp factor) (cadr factor) factor) signs :test #'eq))))
+    (or known (algebra-part-sign factor))))
 
 (defun algebra-not-zero-sign (e)
   (if (eq t (algebra-zero-test e)) '$zero '$unknown))

@@ -5,7 +5,7 @@
 
 (in-package :maxima)
 
-(defvar *algebra-limit* 2000000 "largest number of nodes that an expansion may be predicted to give")
+(defvar *algebra-limit* 400000 "largest number of terms that an expansion may be predicted to give")
 
 (defun algebra-size (e)
   (let ((nodes 0))
@@ -23,7 +23,7 @@
   (when (> predicted *algebra-limit*)
     (core-error "~A would have about ~A terms, more than the ~A that are safe; ~A"
                 what (algebra-about predicted) *algebra-limit*
-                "give numbers for some parameters or take form = factored or program")))
+                "give numbers to some parameters, or take form = factored or program")))
 
 (defun algebra-about (n)
   "Two leading digits of a large number."
@@ -33,6 +33,61 @@
 (defun $algebra_guard (predicted what)
   (algebra-guard predicted (if (stringp what) what (coerce (mstring what) 'string)))
   '$done)
+
+;;; Products and powers of polynomials (Maxima's recursive form).
+
+(defun algebra-monomials (p)
+  (if (atom p)
+      1
+      (loop for (nil coefficient) on (cdr p) by #'cddr sum (algebra-monomials coefficient))))
+
+(defun algebra-guard-product (p q)
+  "Terms of P*Q: not more than the product of both counts, nor than their degrees allow."
+  (let ((bound (* (algebra-monomials p) (algebra-monomials q))))
+    (when (> bound *algebra-limit*)
+      (algebra-guard (min bound (algebra-dense-bound (algebra-degrees p) (algebra-degrees q)))
+                     "a product"))))
+
+(defun algebra-guard-power (p n)
+  (let* ((terms (algebra-monomials p))
+         (order (abs n))
+         (bound (algebra-binomial (+ terms order -1) order)))
+    (when (> bound *algebra-limit*)
+      (algebra-guard (min bound
+                          (algebra-dense-bound
+                           (loop for (variable . degree) in (algebra-degrees p)
+                                 collect (cons variable (* degree order)))
+                           nil))
+                     "a power"))))
+
+(defun algebra-binomial (n k)
+  (let ((product 1))
+    (loop for i from 1 to (min k (- n k))
+          do (setq product (/ (* product (- (1+ n) i)) i))
+          while (< product (expt 10 30)))
+    product))
+
+(defun algebra-degrees (p)
+  "A list of (variable . degree)."
+  (let ((degrees nil))
+    (labels ((walk (p)
+               (unless (atom p)
+                 (let ((entry (assoc (car p) degrees :test #'eq)))
+                   (if entry
+                       (setf (cdr entry) (max (cdr entry) (cadr p)))
+                       (push (cons (car p) (cadr p)) degrees)))
+                 (loop for (nil coefficient) on (cdr p) by #'cddr do (walk coefficient)))))
+      (walk p)
+      degrees)))
+
+(defun algebra-dense-bound (degrees more)
+  (let ((bound 1))
+    (loop for (variable . degree) in degrees
+          do (setq bound (* bound (+ 1 degree
+                                     (or (cdr (assoc variable more :test #'eq)) 0)))))
+    (loop for (variable . degree) in more
+          unless (assoc variable degrees :test #'eq) do (setq bound (* bound (1+ degree))))
+    bound))
 
 ;;; Maxima's own functions, asked without consequences.
 
