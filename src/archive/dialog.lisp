@@ -46,7 +46,7 @@
 ;;; One key
 
 (defun archive-question-text (key section required)
-  (format nil "~a: ~a~a" section (archive-key-question key)
+  (format nil "~@[~a: ~]~a~a" (and (string/= section "top") section) (archive-key-question key)
           (cond (required " (needed; ? explains)")
                 ((archive-default key) (format nil " [~a]" (archive-default key)))
                 (t " [Enter: none]"))))
@@ -182,7 +182,8 @@
 (defun archive-echo (answers)
   (core-say "The description:")
   (loop for answer in answers for n from 1
-        do (core-say (format nil "~3d  ~a: ~@[~a = ~]~a" n (archive-item-section answer)
+        do (core-say (format nil "~3d  ~@[~a: ~]~@[~a = ~]~a" n
+                             (and (string/= (archive-item-section answer) "top") (archive-item-section answer))
                              (and (archive-item-key answer) (archive-key-name (archive-item-key answer)))
                              (archive-item-text answer)))))
 

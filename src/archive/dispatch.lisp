@@ -11,8 +11,8 @@
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (multiple-value-bind (value text)
-      (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '()) (*core-started* (get-internal-real-time))
-            (*core-progress* t))
+      (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
+            (*core-started* nil) (*core-progress* t))
         (core-caught (lambda () (archive-called name arguments))))
     (if text (merror "~A" text) value)))
 
@@ -48,6 +48,7 @@
 
 (defun archive-run (call)
   "The value of the call's target, computed in the guard; new steps are saved."
+  (setq *core-started* (get-internal-real-time))
   (let* ((target (core-public-name (archive-call-public call)))
          (value (core-guarded (archive-call-facts call)
                               (lambda () (archive-abbreviated call (archive-value call target))))))
