@@ -100,9 +100,17 @@
         sum (cond ((mexptp factor) (archive-digits (caddr factor)))
                   (t (archive-digits factor)))))
 
-(defun archive-number-part (e)
-  "The number in the sum or product E."
-  (if (and (consp e) (member (caar e) '(mplus mtimes)) (mnump (cadr e))) (cadr e) (if (mnump e) e 0)))
+(defun archive-coefficient (e)
+  "The number in front of the product E, E if it is a number, else 0."
+  (cond ((mnump e) e)
+        ((and (mtimesp e) (mnump (cadr e))) (cadr e))
+        (t 0)))
+
+(defun archive-added-number (e)
+  "The number that is added in the sum E, E if it is a number, else 0."
+  (cond ((mnump e) e)
+        ((and (mplusp e) (mnump (cadr e))) (cadr e))
+        (t 0)))
 
 (defun archive-ceiling (number)
   "The least integer not below the size of NUMBER."
@@ -110,7 +118,7 @@
 
 (defun archive-check-power-size (base exponent)
   "An error if the number BASE to the number in EXPONENT has too many digits."
-  (let ((part (archive-number-part exponent)))
+  (let ((part (archive-added-number exponent)))
     (when (and (mnump base) (not (floatp base)) (not (floatp part))
                (not (member base '(0 1 -1)))
                (> (* (max 1 (archive-digits base)) (archive-ceiling part)) *archive-digits*))
@@ -153,7 +161,7 @@
 (defun archive-check-sum (sum)
   "SUM, or an error if one of its numbers has grown too long."
   (dolist (term (if (mplusp sum) (cdr sum) (list sum)) sum)
-    (archive-check-number (archive-number-part term))))
+    (archive-check-number (archive-coefficient term))))
 
 (defun archive-negative (e)
   "-E"

@@ -320,10 +320,12 @@
 
 (defun archive-function-name (operator e)
   "The name of an open function, verb or noun."
-  (let ((name (and (symbolp operator) (symbol-name operator))))
-    (cond ((and name (plusp (length name)) (cdr e) (find (char name 0) "$%")
-                (archive-name-p (maybe-invert-string-case (subseq name 1))))
-           (archive-symbol-name (if (char= (char name 0) #\$) operator (intern (concatenate 'string "$" (subseq name 1)) :maxima))))
+  (let* ((lisp (if (symbolp operator) (symbol-name operator) " "))
+         (name (maybe-invert-string-case (subseq lisp 1))))
+    (cond ((and (cdr e) (find (char lisp 0) "$%") (archive-name-p name)
+                (not (member name *archive-keywords* :test #'string=))
+                (not (archive-maxima-function-p name)))
+           name)
           ((eq operator '$set) (archive-unspellable "a set; use [ ]"))
           (t (archive-unspellable "the expression ~a" (core-words (list e)))))))
 
