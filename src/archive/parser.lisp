@@ -505,7 +505,6 @@ have, as a list of (name line column), each once. DOUBLES: decimals are doubles.
   (let ((symbol (archive-symbol name)))
     (and (not (mget symbol 'mexpr)) (not (get symbol 'translated))
          (or (fboundp symbol) (get symbol 'operators) (get symbol 'mfexpr*) (get symbol 'autoload) (get symbol 'alias)
-             (get symbol 'verb) (get symbol 'noun)
              (get (intern-invert-case (concatenate 'string "%" name)) 'operators))
          t)))
 
