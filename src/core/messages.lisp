@@ -95,3 +95,15 @@
 (defmspec $core_attempt (form)
   ;; core_attempt(e): [value of e], or [] when it ends in an error or would ask a question.
   (cons '(mlist simp) (core-attempt (lambda () (meval (cadr form))))))
+
+;;; Texts, for Maxima code that would otherwise load a whole share package for them
+
+(defun $core_joined (items between)
+  "ITEMS as one string with BETWEEN between them."
+  (core-words (loop for (item . more) on (cdr items) collect item when more collect between)))
+
+(defun $core_first_word (text)
+  (subseq text 0 (position #\Space text)))
+
+(defun $core_first_letter (name)
+  (subseq (core-words (list name)) 0 1))
