@@ -224,7 +224,7 @@
 (defun archive-overrulable-p (key)
   "Whether an option of a call may overrule KEY: all of [system] but the count of sections."
   (and (string= (archive-key-section key) "system")
-       (string/= (archive-key-name key) "bodies")))
+       (not (string= (archive-key-name key) "bodies"))))
 
 (defun archive-option-keys (kind)
   "The keys that an option of a call may overrule in archives of KIND."
