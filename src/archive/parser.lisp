@@ -503,7 +503,7 @@ have, as a list of (name line column), each once. DOUBLES: decimals are doubles.
 (defun archive-maxima-function-p (name)
   "True when Maxima, not the person, has a function or operator called NAME."
   (let ((symbol (archive-symbol name)))
-    (and (not (mget symbol 'mexpr)) (not (get symbol 'translated))
+    (and (not (mget symbol 'mexpr))
          (or (fboundp symbol) (get symbol 'operators) (get symbol 'mfexpr*) (get symbol 'autoload) (get symbol 'alias)
              (get (intern-invert-case (concatenate 'string "%" name)) 'operators))
          t)))
