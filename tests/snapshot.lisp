@@ -5,7 +5,7 @@
 (in-package :maxima)
 
 (defparameter *snapshot-passing*
-  '($% $%% $_ $__ $linenum $labels $load_pathname $error $snapshot $before $gensumnum $lasttime $values $functions)
+  '($% $%% $_ $__ $linenum $labels $load_pathname $error $snapshot $before $f $gensumnum $lasttime $values $functions)
   "Variables that change by themselves from one input line to the next.")
 
 (defun snapshot-user-name-p (symbol)
@@ -33,7 +33,7 @@
         (list* '(mlist simp) "variables"
                (loop for name in (snapshot-names #'boundp)
                      collect (list '(mlist simp) name (list '(snapshot-value simp) (snapshot-copy (symbol-value name))))))
-        (list* '(mlist simp) "values" (copy-tree (cdr $values)))
+        (list* '(mlist simp) "values" (set-difference (cdr $values) *snapshot-passing*))
         (list* '(mlist simp) "properties"
                (loop for name in (snapshot-names (lambda (s) (or (cdr (get s 'mprops)) (get s 'data))))
                      collect (list '(mlist simp) name (list '(snapshot-value simp) (snapshot-copy (cdr (get name 'mprops)))

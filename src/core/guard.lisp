@@ -65,13 +65,22 @@
     (unwind-protect (funcall function)
       (loop for (name . list) in saved do (mputprop name list 'depends)))))
 
-(defun core-with-facts (facts function)
-  "Calls FUNCTION in a context below the user's in which FACTS are assumed."
+(defun core-contradicted (facts)
+  "The first of FACTS that contradicts what the session assumes, or nil."
   (with-new-context ()
-    (dolist (fact facts)
-      (when (eq (assume fact) '$inconsistent)
-        (core-warn "the parameter fact ~a contradicts what the session assumes" (core-words (list fact)))))
-    (funcall function)))
+    (find-if (lambda (fact) (eq (assume fact) '$inconsistent)) facts)))
+
+(defun core-call-with-facts (facts function)
+  (dolist (fact facts) (assume fact))
+  (funcall function))
+
+(defun core-with-facts (facts function)
+  "Calls FUNCTION in a context below the user's in which FACTS are assumed; where the two disagree the user's are left out."
+  (let ((contradicted (core-contradicted facts)))
+    (cond (contradicted
+           (core-warn "the archive's ~a contradicts what the session assumes, which is left out" (core-words (list contradicted)))
+           (with-new-context ('$global) (core-call-with-facts facts function)))
+          (t (with-new-context () (core-call-with-facts facts function))))))
 
 (defun core-put-away (name)
   "Keeps the value of NAME for the next use of the guard, and unbinds it."

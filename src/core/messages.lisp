@@ -107,3 +107,5 @@
 
 (defun $core_first_letter (name)
   (subseq (core-words (list name)) 0 1))
+
+(defun $core_textp (e) (stringp e))
