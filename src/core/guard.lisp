@@ -99,7 +99,7 @@
       (let ((*core-guarded* t) (lists (core-information-lists)) (users (copy-list (cdr $values))))
         (flet ((clean-values ()
                  (core-with-values
-                  (append lists users (mapcar #'car *core-kept-values*))
+                  (append lists '($piece) users (mapcar #'car *core-kept-values*))
                   (mapcar (lambda (l) (copy-list (symbol-value l))) lists)
                   (lambda ()
                     (loop for (name . value) in *core-kept-values* do (set name value))
