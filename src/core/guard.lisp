@@ -28,8 +28,8 @@
             do (if value (set name (car value)) (makunbound name))))))
 
 (defun core-information-lists ()
-  "The lists that Maxima keeps of what the user made: functions, rules, options set, ..."
-  (remove-if-not #'boundp (set-difference (cdr $infolists) '($labels $contexts $activecontexts))))
+  "The lists that Maxima keeps of what the user made: functions, rules, options set, ...; and the last `piece' of an expression."
+  (remove-if-not #'boundp (cons '$piece (set-difference (cdr $infolists) '($labels $contexts $activecontexts)))))
 
 (defun core-default-options ()
   "Two lists: option variables that differ from Maxima's defaults, and the defaults."
@@ -99,8 +99,8 @@
       (let ((*core-guarded* t) (lists (core-information-lists)) (users (copy-list (cdr $values))))
         (flet ((clean-values ()
                  (core-with-values
-                  (append lists '($piece) users (mapcar #'car *core-kept-values*))
-                  (mapcar (lambda (l) (copy-list (symbol-value l))) lists)
+                  (append lists users (mapcar #'car *core-kept-values*))
+                  (mapcar (lambda (l) (if (listp (symbol-value l)) (copy-list (symbol-value l)) (symbol-value l))) lists)
                   (lambda ()
                     (loop for (name . value) in *core-kept-values* do (set name value))
                     (unwind-protect
