@@ -6,7 +6,7 @@
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
 . "$here/check"
 
-answer() { timeout -k 5 120 "$here/../tools/maxima" --very-quiet 2>&1; }
+answer() { timeout -k 5 120 "$here/../tools/maxima" "${1---very-quiet}" 2>&1; }
 
 first_line() { grep -m 1 -- ' -- Function:'; }
 
@@ -18,6 +18,17 @@ check "? finds functions of a package that is not loaded" \
   "$(printf 'load("linmodel")$\n? MixedPotential\n' | answer | first_line)" " -- Function: MixedPotential (<system>)"
 check "?? finds by a part of the name" \
   "$(printf 'load("analysis")$\n?? LienardCh\n' | answer | first_line)" " -- Function: LienardChipart (<p>, <lambda>)"
+
+# The session of README.md in a copy of the examples: inputs, and answers without blank lines, indent and progress lines.
+readme_inputs() { sed -n 's/^    (%i[0-9]*) //p' "$here/../README.md"; }
+readme_answers() { awk '/^    \(%i1\)/ { on = 1 } on && /^[^ ]/ { exit } on && !/^    \(%i/' "$here/../README.md" | sed 's/^    //'; }
+in_copy_of_examples() { work=$(mktemp -d) && cp "$here"/../examples/*.txt "$work" && cd "$work"; }
+readme_session() {
+  in_copy_of_examples && readme_inputs | answer --quiet | sed 's/^(%i[0-9]*) //; s/ *$//; /: computing /d'
+  rm -rf "$work"
+}
+
+check "the session of the README" "$(readme_session | grep .)" "$(readme_answers | grep .)"
 
 own_help() { # what `? sin' prints after the statement $1
   printf '%s\n? sin\n' "$1" | answer | grep -v '^$'
