@@ -51,14 +51,19 @@
 
 ;; Files
 
-(defun test-native (text) (coerce text 'simple-string))
-
 (defun $test_write (path text)
-  "Makes PATH a file of TEXT, whose characters are bytes; | stands for a line end, ~ for a carriage return."
+  "Makes PATH a file of TEXT, in which | stands for a line end, ~ for a carriage return, @ for a byte order mark, & for
+an e with its accent."
   (with-open-file (out (archive-native-path path) :direction :output :element-type '(unsigned-byte 8)
                                                   :if-exists :supersede)
     (loop for c across text
-          do (write-byte (case c (#\| 10) (#\~ 13) (t (char-code c))) out)))
+          do (dolist (byte (case c
+                             (#\| '(10))
+                             (#\~ '(13))
+                             (#\@ '(239 187 191))
+                             (#\& '(195 169))
+                             (t (list (char-code c)))))
+               (write-byte byte out))))
   path)
 
 (defun $test_text (path)
@@ -103,5 +108,8 @@
 
 (defun $test_said (function)
   "What FUNCTION prints, on one line."
-  (substitute #\Space #\Newline
-              (with-output-to-string (*standard-output*) (mfuncall function))))
+  (let ((*core-warnings* '()))
+    (substitute #\Space #\Newline
+                (with-output-to-string (*standard-output*) (mfuncall function)))))
+
+(defun $test_delete (path) (archive-unlink path) path)

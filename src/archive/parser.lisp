@@ -326,7 +326,7 @@
           ((string= name "false") nil)
           ((member (reader-kind reader) '(:quote))
            (archive-fault reader (reader-from reader) "found ', expected an operator: a time derivative's ' stands directly after the name"))
-          (t (archive-symbol name)))))
+          (t (core-read-symbol (archive-symbol name))))))
 
 (defun archive-primed-name (reader name primes from)
   "The time derivative of order PRIMES."
@@ -336,7 +336,7 @@
     (archive-fault reader from "more than ~d signs ' after a name" *archive-nesting*))
   (when (eq (reader-kind reader) :open)
     (archive-fault reader (reader-from reader) "found ( after ~a', expected an operator: ' stands after names of coordinates only" name))
-  (list '(%derivative simp) (archive-symbol name) '$t primes))
+  (list '(%derivative simp) (core-read-symbol (archive-symbol name)) '$t primes))
 
 (defun archive-parse-noun! (reader)
   "The quote before diff, integrate or at: these are nouns with and without it."

@@ -283,7 +283,7 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
     (when (member value *archive-keywords* :test #'equal)
       (archive-fault reader (reader-from reader) "found `~a': the word is reserved and cannot be a name" value))
     (archive-next-token! reader)
-    (if (stringp value) (archive-symbol value) value)))
+    (if (stringp value) (core-symbol value) value)))
 
 (defun archive-parse-arrow! (reader)
   "node -> node, as a list of two."
@@ -318,7 +318,7 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
     (let ((second (reader-value reader)) (to (reader-to reader)))
       (archive-parse-node! (copy-archive-reader reader))
       (setf (reader-from reader) to)
-      (list first (if (stringp second) (archive-symbol second) second)))))
+      (list first (if (stringp second) (core-symbol second) second)))))
 
 (defun archive-parse-coupling (reader)
   "label label  M, or label label  k = number"

@@ -209,7 +209,7 @@
 
 (defun archive-symbol-name (symbol)
   "The name of the Maxima SYMBOL, if the grammar has it."
-  (let* ((lisp (symbol-name symbol))
+  (let* ((lisp (symbol-name (or (get symbol 'reversealias) symbol)))
          (name (and (plusp (length lisp)) (char= (char lisp 0) #\$) (maybe-invert-string-case (subseq lisp 1)))))
     (cond ((member symbol '($%pi $%e $%i)) name)
           ((and name (archive-name-p name)

@@ -53,9 +53,8 @@
   "A plain name: no constant such as %pi, inf, true."
   (and (symbolp value)
        (not (member value '(nil t $inf $minf)))
-       (> (length (symbol-name value)) 1)
-       (char= (char (symbol-name value) 0) #\$)
-       (char/= (char (symbol-name value) 1) #\%)))
+       (let ((name (symbol-name (or (get value 'reversealias) value))))  ; %gamma inside is gamma
+         (and (> (length name) 1) (char= (char name 0) #\$) (char/= (char name 1) #\%)))))
 
 (defun archive-velocity-p (value)
   "'diff(name, t)."

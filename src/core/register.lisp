@@ -47,13 +47,18 @@
   "NAME is the part FIELD of the quantity RECORD."
   (core-add-rule name (make-core-rule :kinds kinds :record record :field field)))
 
+(defun core-read-symbol (symbol)
+  "SYMBOL as Maxima's own reader gives it: gamma, zeta and lambda are %gamma, %zeta and lambda without $ inside."
+  (let ((alias (get symbol 'alias)))
+    (if (and alias (char/= (char (symbol-name alias) 0) #\$)) alias symbol)))
+
 (defun core-symbol (name)
   "The Maxima symbol that a person spells NAME."
-  (intern (maybe-invert-string-case (concatenate 'string "$" name)) :maxima))
+  (core-read-symbol (intern (maybe-invert-string-case (concatenate 'string "$" name)) :maxima)))
 
 (defun core-spelling (symbol)
   "How a person spells SYMBOL."
-  (let ((name (maybe-invert-string-case (string symbol))))
+  (let ((name (maybe-invert-string-case (string (or (get symbol 'reversealias) symbol)))))
     (if (and (plusp (length name)) (char= (char name 0) #\$)) (subseq name 1) name)))
 
 (defun core-rule-fits (rule kind given)
