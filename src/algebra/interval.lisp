@@ -32,7 +32,7 @@
 
 (defun interval-of (e)
   (cond ((rationalp e) (interval-rational e))
-        ((floatp e) (interval-rational (rational e)))
+        ((floatp e) (interval-rational (algebra-rational-number e)))
         ((eq e '$%pi) (interval-pi))
         ((eq e '$%e) (interval-exp (interval-rational 1)))
         ((eq e '$%phi) (interval-of '((mtimes) ((rat) 1 2) ((mplus) 1 ((mexpt) 5 ((rat) 1 2))))))
@@ -149,10 +149,6 @@
 
 ;;; Series.  Each is summed in intervals; the remainder is below the last term kept.
 
-(defun interval-within (a)
-  "A widened by one unit on both sides."
-  (cons (1- (car a)) (1+ (cdr a))))
-
 (defun interval-series (first ratio-of)
   "FIRST and the terms that follow by RATIO-OF (an interval for each place), halving at least."
   (let ((sum first) (term first))
@@ -231,6 +227,7 @@
 
 (defun interval-odd-series (z sign)
   "z + sign*z^3/3 + z^5/5 + ..: atan for sign -1, artanh for 1; |z| below 1/2."
+  (when (> (* 2 (max (abs (car z)) (abs (cdr z)))) (interval-unit)) (throw 'no-interval nil))
   (let* ((square (interval-multiply (interval-rational sign) (interval-multiply z z)))
          (power z)
          (sum z))

@@ -52,7 +52,7 @@
 
 (defun algebra-scan (e)
   (cond ((symbolp e) (algebra-scan-symbol e))
-        ((numberp e) (rational e))
+        ((numberp e) (algebra-rational-number e))
         ((atom e) (algebra-outside e))
         (t (case (caar e)
              (rat (/ (cadr e) (caddr e)))
@@ -169,16 +169,19 @@
         (list 'known (algebra-scan cosine) (algebra-scan sine))))))
 
 (defun algebra-numeric-factor (term)
-  (cond ((and (mtimesp term) (algebra-rational-number (cadr term)))
-         (values (algebra-rational-number (cadr term))
-                 (if (cdddr term) (cons '(mtimes simp) (cddr term)) (caddr term))))
-        ((algebra-rational-number term) (values (algebra-rational-number term) 1))
-        (t (values 1 term))))
+  "The number and the base of an angle; large multiples stay angles of their own."
+  (let* ((product (mtimesp term))
+         (number (algebra-rational-number (if product (cadr term) term))))
+    (cond ((or (null number) (> (abs (numerator number)) 60)) (values 1 term))
+          ((not product) (values number 1))
+          ((cdddr term) (values number (cons '(mtimes simp) (cddr term))))
+          (t (values number (caddr term))))))
 
 (defun algebra-rational-number (e)
   (cond ((rationalp e) e)
         ((ratnump e) (/ (cadr e) (caddr e)))
-        ((floatp e) (rational e))))
+        ((floatp e) (let (($ratprint nil) (ratio (maxima-rationalize e)))
+                      (/ (car ratio) (cdr ratio))))))
 
 (defun algebra-find-unit (base kind)
   (or (find-if (lambda (unit)
@@ -299,7 +302,8 @@
   "A product of symbols and open functions: sums of such terms are independent over the rationals."
   (cond ((symbolp base) (not ($constantp base)))
         ((atom base) nil)
-        ((mtimesp base) (and (every #'algebra-independent-factor-p (cdr base))
+        ((mtimesp base) (and (not (algebra-rational-number (cadr base)))
+                             (every #'algebra-independent-factor-p (cdr base))
                              (notevery #'$constantp (cdr base))))
         (t (and (algebra-independent-factor-p base) (not ($constantp base))))))
 
@@ -380,7 +384,7 @@
     (cond ((minusp n)
            (let ((positive (algebra-multiple-angle unit (- n))))
              (cons (car positive) (ratminus (cdr positive)))))
-          ((> n 200) (core-error "an angle with the multiple ~A is too much to expand" n))
+          ((> n 500) (core-error "sin(~A*u) and sin(u) in one formula are too much to expand" n))
           (t (algebra-chebyshev cosine sine n)))))
 
 (defun algebra-chebyshev (cosine sine n)

@@ -53,7 +53,25 @@
           (below (algebra-reduce-roots d)))
       (cond ((algebra-vanishes-p d) (core-error "division by zero"))
             ((pzerop (car above)) (cons 0 1))
-            (t (algebra-shortest-angles (algebra-ratio-of above below)))))))
+            (t (algebra-settle (algebra-shortest-angles (algebra-ratio-of above below))))))))
+
+(defun algebra-settle (quotient)
+  "Cancel again what the readable form shows, until nothing changes: the form is its own form."
+  (if (algebra-angles-below-p quotient)
+      (loop repeat 4
+            for again = (algebra-shortest-angles
+                         (algebra-ratio-of (algebra-reduce (algebra-readable (car quotient)))
+                                           (algebra-reduce-roots
+                                            (algebra-readable (cdr quotient)))))
+            until (equal again quotient)
+            do (setq quotient again)
+            finally (return quotient))
+      quotient))
+
+(defun algebra-angles-below-p (quotient)
+  (some (lambda (unit)
+          (and (algebra-pair-p unit) (algebra-unit-occurs-p unit (cdr quotient))))
+        (algebra-ring-units *algebra-ring*)))
 
 (defun algebra-reduce-roots (d)
   (let ((quotient (cons d 1)))
