@@ -1,8 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Graphs of branches: spanning forest, fundamental loops, Kirchhoff's sums, and elimination where transformers join nodes.
-;;; A branch is a pair of nodes [from, to], known by its number in the list; parallel branches stay apart. A loop is a list of
-;;; [tree branch, sign], sign 1 where the way from the first node of the link to its second runs along the arrow.
-;;; Time: forest n log* n by union-find, loops the sum of their lengths, Kirchhoff's sums n; elimination only with transformers.
+;;; Graphs of branches: spanning forest, fundamental loops, Kirchhoff's sums, and elimination
+;;; where transformers join nodes. A branch is a pair of nodes [from, to], known by its number in
+;;; the list; parallel branches stay apart. A loop is a list of [tree branch, sign], sign 1 where
+;;; the way from the first node of the link to its second runs along the arrow. Time: forest n
+;;; log* n by union-find, loops the sum of their lengths, Kirchhoff's sums n; elimination only
+;;; with transformers.
 
 (in-package :maxima)
 
@@ -33,7 +35,8 @@
           (push node nodes))))
     (circuits-mlist (nreverse nodes))))
 
-;; Spanning forest by Kruskal's rule: the branches are offered in ORDER, one that closes a loop is refused.
+;; Spanning forest by Kruskal's rule: the branches are offered in ORDER, one that closes a loop is
+;; refused.
 
 (defun circuits-root (parent node)
   (loop until (= node (aref parent node))
@@ -56,20 +59,24 @@
 (defun $circuits_pieces (ends)
   "The connected pieces, each a list of nodes."
   (multiple-value-bind (from to count) (circuits-ends ends)
-    (let ((parent (make-array count)) (members (make-array count :initial-element nil)) (pieces nil))
+    (let ((parent (make-array count))
+          (members (make-array count :initial-element nil))
+          (pieces nil))
       (dotimes (node count) (setf (aref parent node) node))
       (dotimes (branch (length from))
-        (setf (aref parent (circuits-root parent (aref from branch))) (circuits-root parent (aref to branch))))
+        (setf (aref parent (circuits-root parent (aref from branch)))
+              (circuits-root parent (aref to branch))))
       (loop for member in (cdr ($circuits_nodes ends)) for node from 0
             do (push member (aref members (circuits-root parent node))))
       (dotimes (node count)
         (when (aref members node) (push (circuits-mlist (nreverse (aref members node))) pieces)))
       (circuits-mlist (nreverse pieces)))))
 
-;; Fundamental loops: the forest is hung up from one node of each piece; the way between two nodes runs over their meeting point.
+;; Fundamental loops: the forest is hung up from one node of each piece; the way between two nodes
+;; runs over their meeting point.
 
 (defun circuits-hang (from to count tree)
-  "Vectors of parent node, parent branch (with sign: from the child upward along the arrow is plus) and depth."
+  "Vectors of parent node, parent branch (plus where its arrow points upward) and level."
   (let ((near (make-array count :initial-element nil))
         (parent (make-array count :initial-element nil))
         (upward (make-array count :initial-element 0))
@@ -109,10 +116,12 @@
        (mapcar (lambda (link)
                  (circuits-mlist
                   (mapcar (lambda (step) (circuits-mlist (list (abs step) (signum step))))
-                          (circuits-way (aref from (1- link)) (aref to (1- link)) parent upward level))))
+                          (circuits-way (aref from (1- link)) (aref to (1- link))
+                                        parent upward level))))
                (cdr links))))))
 
-;; Kirchhoff's laws, from the branches themselves and without the tree: the judge of all that is derived.
+;; Kirchhoff's laws, from the branches themselves and without the tree: the judge of all that is
+;; derived.
 
 (defun $circuits_current_sums (ends currents)
   "Sum of the currents that leave each node."
@@ -124,7 +133,7 @@
       (circuits-mlist (map 'list #'addn totals (make-array count :initial-element nil))))))
 
 (defun $circuits_voltage_gaps (ends voltages)
-  "For each branch its voltage less the difference of node potentials; the potentials are summed up from node to node."
+  "For each branch its voltage less the difference of node potentials, summed up on the way."
   (multiple-value-bind (from to count) (circuits-ends ends)
     (let ((near (make-array count :initial-element nil))
           (potential (make-array count :initial-element nil)))
@@ -146,7 +155,8 @@
              collect (sub (sub voltage (aref potential (aref from branch)))
                           (neg (aref potential (aref to branch)))))))))
 
-;; Elimination. A row is a list of [column, coefficient]; the pivots are looked for column by column in the given order.
+;; Elimination. A row is a list of [column, coefficient]; the pivots are looked for column by
+;; column in the given order.
 
 (defun circuits-simpler (e)
   (if (atom e) e ($ratsimp e)))
@@ -155,7 +165,9 @@
   (let ((table (make-hash-table)))
     (dolist (entry (cdr row) table)
       (let ((value (circuits-simpler (add (gethash (second entry) table 0) (third entry)))))
-        (if (zerop1 value) (remhash (second entry) table) (setf (gethash (second entry) table) value))))))
+        (if (zerop1 value)
+            (remhash (second entry) table)
+            (setf (gethash (second entry) table) value))))))
 
 (defun circuits-row-list (table)
   (let ((entries nil))
@@ -171,7 +183,9 @@
 
 (defun circuits-scale (row column)
   (let ((pivot (gethash column row)))
-    (maphash (lambda (key value) (setf (gethash key row) (circuits-simpler (div value pivot)))) row)))
+    (maphash (lambda (key value)
+               (setf (gethash key row) (circuits-simpler (div value pivot))))
+             row)))
 
 (defun circuits-pivot-row (rows used column)
   "The shortest unused row with an entry in COLUMN, or nil."
@@ -182,7 +196,7 @@
         (setq best row)))))
 
 (defun $circuits_elimination (rows order)
-  "[[column, reduced row] for each column of ORDER that has a pivot, .., the rows left without pivot]."
+  "[[[column, reduced row], ..] for the columns of ORDER with a pivot, rows left without one]."
   (let ((tables (mapcar #'circuits-row-table (cdr rows))) (used nil) (pivots nil))
     (dolist (column (cdr order))
       (let ((row (circuits-pivot-row tables used column)))
@@ -201,7 +215,8 @@
             (mapcar #'circuits-row-list
                     (remove-if (lambda (row) (member row used :test #'eq)) tables)))))))
 
-;; Substitution for names alone, all at once: an operator of the same name, and a variable of integration, stay.
+;; Substitution for names alone, all at once: an operator of the same name, and a variable of
+;; integration, stay.
 
 (defun circuits-put (table e)
   (cond ((symbolp e) (gethash e table e))
@@ -214,7 +229,9 @@
         (t (circuits-put-parts table e))))
 
 (defun circuits-put-parts (table e)
-  (simplifya (cons (remove 'simp (car e)) (mapcar (lambda (part) (circuits-put table part)) (cdr e))) nil))
+  (simplifya (cons (remove 'simp (car e))
+                   (mapcar (lambda (part) (circuits-put table part)) (cdr e)))
+             nil))
 
 (defun $circuits_put (equations e)
   "E with the right sides of EQUATIONS [name = value, ..] for the names."
