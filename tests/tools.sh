@@ -19,7 +19,7 @@ case $1 in
   --version) echo "Maxima ${STRAW_VERSION:-5.47.0}"; exit ;;
   --directories) echo "maxima-imagesdir=/straw/binary-$MAXIMA_LISP"; exit ;;
 esac
-shift 2
+[ "$1" != -p ] || shift 2
 printf '[%s]' "$@"
 printf ' %s\n' "$PWD"
 exit 7
