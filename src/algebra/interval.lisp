@@ -7,11 +7,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels"))
+  (core-require "algebra/nouns"))
 
 (defvar *interval-bits* 64)
-(defvar *interval-values* nil "values of symbols and opaque functions: a list of (expression . rational)")
-(defvar *interval-value-of* nil "function that gives a new symbol its value, or nil: constants only")
+(defvar *interval-values* nil "values of symbols and open functions: (expression . rational), ..")
+(defvar *interval-value-of* nil "function that gives a symbol its value; nil: constants only")
 
 (defun algebra-interval-sign (e)
   "1 or -1 if the constant E is proved positive or negative, else nil."
@@ -51,8 +51,9 @@
     (case (and x (caar e))
       (%sin (cdr (interval-angle (interval-of x))))
       (%cos (car (interval-angle (interval-of x))))
-      (%tan (let ((angle (interval-angle (interval-of x)))) (interval-divide (cdr angle) (car angle))))
-      (%cot (let ((angle (interval-angle (interval-of x)))) (interval-divide (car angle) (cdr angle))))
+      (%tan (interval-tangent (interval-angle (interval-of x))))
+      (%cot (interval-divide (interval-rational 1)
+                             (interval-tangent (interval-angle (interval-of x)))))
       (%sec (interval-divide (interval-rational 1) (car (interval-angle (interval-of x)))))
       (%csc (interval-divide (interval-rational 1) (cdr (interval-angle (interval-of x)))))
       (%sinh (car (interval-hyperbolic (interval-of x))))
@@ -66,6 +67,9 @@
                                 (interval-asin (interval-of x))))
       (mabs (interval-abs (interval-of x)))
       (t (interval-unknown e)))))
+
+(defun interval-tangent (angle)
+  (interval-divide (cdr angle) (car angle)))
 
 (defun interval-unknown (e)
   "The value given to a symbol or an open function at the point tried."

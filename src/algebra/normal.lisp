@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/roots" "algebra/reduction" "algebra/readable" "algebra/general"))
+  (core-require "algebra/scan" "algebra/evaluate" "algebra/readable" "algebra/general"))
 
 (defun $algebra_normal (e)
   (algebra-map-bags #'algebra-normal-form e))
@@ -34,6 +34,8 @@
         (let ((quotient (algebra-normal-quotient e)))
           (algebra-general-quotient (algebra-readable (car quotient))
                                     (algebra-readable (cdr quotient)))))))
+
+(setq *algebra-argument-form* 'algebra-normal-form)
 
 (defun algebra-normal-quotient (e)
   (let ((*algebra-exponential-form* (algebra-exponentials-p e)))

@@ -113,3 +113,10 @@
 
 (defun algebra-vanishes-p (p)
   (pzerop (car (algebra-reduce p))))
+
+(defun algebra-sum (terms)
+  "Halves are added to halves: intermediate sums stay short."
+  (cond ((null terms) (cons 0 1))
+        ((null (cdr terms)) (car terms))
+        (t (let ((half (floor (length terms) 2)))
+             (ratplus (algebra-sum (subseq terms 0 half)) (algebra-sum (nthcdr half terms)))))))

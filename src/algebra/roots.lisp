@@ -3,31 +3,33 @@
 ;;; Roots as kernels: kernel^n = radicand.  Radicands are normal, freed of squares,
 ;;; sqrt(f^2*g) = |f|*sqrt(g), and |f| is f or -f where the facts tell its sign, else a kernel
 ;;; with |f|^2 = f^2.  For the zero test known positive factors are taken apart,
-;;; sqrt(x*y) = sqrt(x)*sqrt(y), and sqrt(x/y) = sqrt(x*y)/|y|.
+;;; sqrt(x*y) = sqrt(x)*sqrt(y), and sqrt(x/y) = sqrt(x*y)/|y|.  SCAN makes skeletons of radicands.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/nouns"))
 
-(defun algebra-root (base degree)
+(defvar *algebra-roots-apart* nil "true: roots of products become products of roots where allowed")
+
+(defun algebra-root (base degree scan)
   "The skeleton of base^(1/degree)."
   (cond ((not (integerp base))
          (if (symbolp base)
-             (algebra-root-kernel base degree)
-             (algebra-root-of-factors (algebra-radicand-factors base) degree)))
-        ((plusp base) (cons '* (algebra-prime-roots base degree)))
+             (algebra-root-kernel base degree scan)
+             (algebra-root-of-factors (algebra-radicand-factors base) degree scan)))
+        ((plusp base) (cons '* (algebra-prime-roots base degree scan)))
         ((and (= degree 2) (< base -1))
-         (list '* (algebra-root-kernel -1 2) (algebra-root (- base) 2)))
-        (t (algebra-root-kernel base degree))))
+         (list '* (algebra-root-kernel -1 2 scan) (algebra-root (- base) 2 scan)))
+        (t (algebra-root-kernel base degree scan))))
 
-(defun algebra-prime-roots (n degree)
+(defun algebra-prime-roots (n degree scan)
   "sqrt(6) is sqrt(2)*sqrt(3)."
   (cons 1 (loop for (prime power) on (algebra-prime-factors n) by #'cddr
                 collect (multiple-value-bind (whole rest) (floor power degree)
                           (if (zerop rest)
                               (expt prime whole)
-                              (list '^ (algebra-root-kernel prime degree) power))))))
+                              (list '^ (algebra-root-kernel prime degree scan) power))))))
 
 (defun algebra-prime-factors (n)
   (cond ((= n 1) nil)
@@ -37,7 +39,7 @@
 ;;; A radicand as a list of (factor . power), powers negative below the line.
 
 (defun algebra-radicand-factors (base)
-  (let* ((normal (algebra-normal-form base))
+  (let* ((normal (algebra-argument-form base))
          (factored (algebra-take-factors normal)))
     (algebra-factor-list factored)))
 
@@ -57,25 +59,25 @@
                         (list (cons (cadr factor) (caddr factor))))
                        (t (list (cons factor 1)))))))
 
-(defun algebra-root-of-factors (factors degree)
+(defun algebra-root-of-factors (factors degree scan)
   "Whole powers out, the rest under one root; for the zero test positive factors apart."
   (let ((outside nil) (inside 1))
     (loop for (f . power) in factors
           for sign = (algebra-known-sign f)
           do (cond ((and (integerp f) (plusp f))
-                    (push (list '^ (algebra-root f degree) power) outside))
+                    (push (list '^ (algebra-root f degree scan) power) outside))
                    ((or (= degree 2) (member sign '($pos $pz)))
                     (multiple-value-bind (whole rest) (algebra-whole-powers power degree)
                       (unless (zerop whole)
-                        (push (list '^ (algebra-absolute f) whole) outside))
+                        (push (list '^ (algebra-absolute f scan) whole) outside))
                       (cond ((zerop rest))
                             ((and *algebra-roots-apart* (member sign '($pos $pz)))
-                             (push (list '^ (algebra-root-kernel f degree) rest) outside))
+                             (push (list '^ (algebra-root-kernel f degree scan) rest) outside))
                             (t (setq inside (mul inside (power f rest)))))))
                    (t (setq inside (mul inside (power f power))))))
     (list* '* (if (integerp inside)
-                  (algebra-root inside degree)
-                  (algebra-root-kernel (algebra-normal-form inside) degree))
+                  (algebra-root inside degree scan)
+                  (algebra-root-kernel (algebra-argument-form inside) degree scan))
            outside)))
 
 (defun algebra-whole-powers (power degree)
@@ -89,30 +91,31 @@
       '$neg
       (algebra-quietly (lambda () ($sign e)))))
 
-(defun algebra-absolute (e)
+(defun algebra-absolute (e scan)
   "The skeleton of |e|."
   (case (algebra-known-sign e)
-    (($pos $pz) (algebra-scan e))
-    (($neg $nz) (list '* -1 (algebra-scan e)))
-    (t (let ((expression (simplify (list '(mabs) (algebra-normal-form e)))))
+    (($pos $pz) (funcall scan e))
+    (($neg $nz) (list '* -1 (funcall scan e)))
+    (t (let ((expression (simplify (list '(mabs) (algebra-argument-form e)))))
          (if (and (consp expression) (eq (caar expression) 'mabs))
-             (algebra-absolute-kernel expression)
-             (algebra-scan-products expression))))))
+             (algebra-absolute-kernel expression scan)
+             (algebra-absolute-product expression scan))))))
 
-(defun algebra-scan-products (e)
+(defun algebra-absolute-product (e scan)
   "Products and quotients of absolute values that Maxima took apart."
-  (cond ((and (consp e) (eq (caar e) 'mabs)) (algebra-absolute-kernel e))
-        ((mtimesp e) (cons '* (mapcar #'algebra-scan-products (cdr e))))
+  (cond ((and (consp e) (eq (caar e) 'mabs)) (algebra-absolute-kernel e scan))
+        ((mtimesp e)
+         (cons '* (mapcar (lambda (part) (algebra-absolute-product part scan)) (cdr e))))
         ((and (mexptp e) (integerp (caddr e)))
-         (list '^ (algebra-scan-products (cadr e)) (caddr e)))
-        (t (algebra-scan e))))
+         (list '^ (algebra-absolute-product (cadr e) scan) (caddr e)))
+        (t (funcall scan e))))
 
-(defun algebra-absolute-kernel (expression)
-  (algebra-find-or-make-root expression 2 (lambda () (list '^ (algebra-scan (cadr expression)) 2))))
+(defun algebra-absolute-kernel (expression scan)
+  (algebra-find-or-make-root expression 2 (lambda () (list '^ (funcall scan (cadr expression)) 2))))
 
-(defun algebra-root-kernel (radicand degree)
+(defun algebra-root-kernel (radicand degree scan)
   (algebra-find-or-make-root (power radicand (list '(rat simp) 1 degree)) degree
-                             (lambda () (algebra-scan radicand))))
+                             (lambda () (funcall scan radicand))))
 
 (defun algebra-find-or-make-root (expression degree radicand)
   (or (algebra-find-opaque expression)

@@ -5,6 +5,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/common"))
+
 (defvar *algebra-limit* 400000 "largest number of terms that an expansion may be predicted to give")
 
 (defun algebra-size (e)
@@ -88,11 +91,3 @@
     (loop for (variable . degree) in more
           unless (assoc variable degrees :test #'eq) do (setq bound (* bound (1+ degree))))
     bound))
-
-;;; Maxima's own functions, asked without consequences.
-
-(defun algebra-quietly (function)
-  "The value of FUNCTION, nil if Maxima signals an error; questions are errors, too."
-  (let ((errcatch t) ($errormsg nil) (*mdebug* nil))
-    (declare (special errcatch $errormsg *mdebug*))
-    (car (errset (funcall function)))))

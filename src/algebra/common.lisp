@@ -1,0 +1,33 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; What all of the algebra uses: exact numbers, the least of several forms, Maxima's functions
+;;; asked without consequences, and the words for what lies outside.
+
+(in-package :maxima)
+
+(defun algebra-rational-number (e)
+  (cond ((rationalp e) e)
+        ((ratnump e) (/ (cadr e) (caddr e)))
+        ((floatp e) (let (($ratprint nil) (ratio (maxima-rationalize e)))
+                      (/ (car ratio) (cdr ratio))))))
+
+(defun algebra-least (items measure)
+  (let ((least (car items)) (smallest (funcall measure (car items))))
+    (dolist (item (cdr items) least)
+      (let ((size (funcall measure item)))
+        (when (< size smallest) (setq least item smallest size))))))
+
+(defun algebra-quietly (function)
+  "The value of FUNCTION, nil if Maxima signals an error; questions are errors, too."
+  (let ((errcatch t) ($errormsg nil) (*mdebug* nil))
+    (declare (special errcatch $errormsg *mdebug*))
+    (car (errset (funcall function)))))
+
+(defun algebra-outside (e)
+  (core-error "a formula was expected, found ~A" (algebra-short-text e)))
+
+(defun algebra-short-text (e)
+  (let ((text (coerce (mstring e) 'string)))
+    (if (> (length text) 60)
+        (concatenate 'string (subseq text 0 57) "...")
+        text)))

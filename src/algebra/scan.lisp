@@ -1,0 +1,125 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; The scan names the kernels of an expression and leaves a skeleton: numbers, kernels, (+ ..),
+;;; (* ..), (^ base n), (cosine terms), (sine terms), (power terms), where terms is a list of
+;;; (rational . unit) or (known cosine sine).
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/kernels" "algebra/nouns" "algebra/roots"))
+
+(defvar *algebra-exponential-form* nil "true: sinh and cosh become exponentials")
+
+(defun algebra-scan (e)
+  (cond ((symbolp e) (algebra-scan-symbol e))
+        ((numberp e) (algebra-rational-number e))
+        ((atom e) (algebra-outside e))
+        (t (case (caar e)
+             (rat (/ (cadr e) (caddr e)))
+             (bigfloat (let ((ratio ($rationalize e))) (algebra-scan ratio)))
+             (mplus (cons '+ (mapcar #'algebra-scan (cdr e))))
+             (mtimes (cons '* (mapcar #'algebra-scan (cdr e))))
+             (mminus (list '* -1 (algebra-scan (cadr e))))
+             (mquotient (list '* (algebra-scan (cadr e)) (list '^ (algebra-scan (caddr e)) -1)))
+             (mexpt (algebra-scan-power (cadr e) (caddr e)))
+             (%sqrt (algebra-scan-power (cadr e) '((rat simp) 1 2)))
+             (mrat (algebra-scan (ratdisrep e)))
+             ((mlist $matrix $set mequal mnotequal mgreaterp mlessp mgeqp mleqp mand mor mnot msetq
+               mdefine mcond mprog mprogn)
+              (algebra-outside e))
+             (mabs (algebra-absolute (cadr e) #'algebra-scan))
+             (t (algebra-scan-function e))))))
+
+(defun algebra-scan-symbol (e)
+  (case e
+    ($%i (algebra-root -1 2 #'algebra-scan))
+    ($%e (algebra-scan-power '$%e 1))
+    ($%phi (list '* 1/2 (list '+ 1 (algebra-root 5 2 #'algebra-scan))))
+    (($inf $minf $infinity $und $ind nil t) (algebra-outside e))
+    (t (or (gethash e (algebra-ring-symbols *algebra-ring*))
+           (setf (gethash e (algebra-ring-symbols *algebra-ring*))
+                 (algebra-new-kernel e 2 (not ($constantp e))))))))
+
+(defun algebra-scan-function (e)
+  (case (caar e)
+    (%sin (algebra-scan-sine (cadr e) 'circular))
+    (%cos (algebra-scan-cosine (cadr e) 'circular))
+    (%tan (algebra-over (algebra-scan-sine (cadr e) 'circular)
+                        (algebra-scan-cosine (cadr e) 'circular)))
+    (%cot (algebra-over (algebra-scan-cosine (cadr e) 'circular)
+                        (algebra-scan-sine (cadr e) 'circular)))
+    (%sec (algebra-over 1 (algebra-scan-cosine (cadr e) 'circular)))
+    (%csc (algebra-over 1 (algebra-scan-sine (cadr e) 'circular)))
+    (%sinh (algebra-scan-hyperbolic-sine (cadr e)))
+    (%cosh (algebra-scan-hyperbolic-cosine (cadr e)))
+    (%tanh (algebra-over (algebra-scan-hyperbolic-sine (cadr e))
+                         (algebra-scan-hyperbolic-cosine (cadr e))))
+    (%coth (algebra-over (algebra-scan-hyperbolic-cosine (cadr e))
+                         (algebra-scan-hyperbolic-sine (cadr e))))
+    (%sech (algebra-over 1 (algebra-scan-hyperbolic-cosine (cadr e))))
+    (%csch (algebra-over 1 (algebra-scan-hyperbolic-sine (cadr e))))
+    (t (algebra-opaque-kernel e))))
+
+;;; Hyperbolic functions: pairs of their own, or exponentials.
+
+(defun algebra-scan-hyperbolic-sine (u)
+  (if *algebra-exponential-form*
+      (algebra-half-sum u -1)
+      (algebra-scan-sine u 'hyperbolic)))
+
+(defun algebra-scan-hyperbolic-cosine (u)
+  (if *algebra-exponential-form*
+      (algebra-half-sum u 1)
+      (algebra-scan-cosine u 'hyperbolic)))
+
+(defun algebra-half-sum (u sign)
+  "(exp(u) + sign*exp(-u))/2"
+  (let ((growing (algebra-scan-power '$%e u)))
+    (list '* 1/2 (list '+ growing (list '* sign (list '^ growing -1))))))
+
+;;; Angles and exponents: sums of rational multiples of units.
+
+(defun algebra-scan-sine (angle kind)
+  (if (eql angle 0) 0 (list 'sine (algebra-terms angle kind))))
+
+(defun algebra-scan-cosine (angle kind)
+  (if (eql angle 0) 1 (list 'cosine (algebra-terms angle kind))))
+
+(defun algebra-terms (angle kind)
+  (let ((sum (if (symbolp angle) angle ($expand (algebra-argument-form angle)))))
+    (loop for term in (if (mplusp sum) (cdr sum) (list sum))
+          collect (algebra-term term kind))))
+
+(defun algebra-term (term kind)
+  (or (and (eq kind 'circular) (algebra-known-angle term))
+      (multiple-value-bind (factor base) (algebra-numeric-factor term)
+        (let ((unit (algebra-find-unit base kind)))
+          (setf (algebra-unit-denominator unit)
+                (lcm (algebra-unit-denominator unit) (denominator factor)))
+          (cons factor unit)))))
+
+(defun algebra-known-angle (term)
+  "(known cosine sine) for multiples of %pi whose sines Maxima knows by roots."
+  (when (and (not (symbolp term)) (among '$%pi term) ($constantp term))
+    (let ((cosine (simplify (list '(%cos) term)))
+          (sine (simplify (list '(%sin) term))))
+      (unless (or (among '$%pi cosine) (among '$%pi sine))
+        (list 'known (algebra-scan cosine) (algebra-scan sine))))))
+
+(defun algebra-numeric-factor (term)
+  "The number and the base of an angle; large multiples stay angles of their own."
+  (let* ((product (mtimesp term))
+         (number (algebra-rational-number (if product (cadr term) term))))
+    (cond ((or (null number) (> (abs (numerator number)) 60)) (values 1 term))
+          ((not product) (values number 1))
+          ((cdddr term) (values number (cons '(mtimes simp) (cddr term))))
+          (t (values number (caddr term))))))
+
+(defun algebra-scan-power (base exponent)
+  (let ((number (algebra-rational-number exponent)))
+    (cond ((eq base '$%e) (list 'power (algebra-terms exponent '$%e)))
+          ((integerp number) (list '^ (algebra-scan base) number))
+          (number (list '^ (algebra-root base (denominator number) #'algebra-scan)
+                        (numerator number)))
+          (t (list 'power (algebra-terms exponent (algebra-argument-form base)))))))
