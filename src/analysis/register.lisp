@@ -8,6 +8,7 @@
 (defparameter *analysis-states* '("circuit" "equations") "Kinds whose equations are of first order.")
 (defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
 (defparameter *analysis-none* '((mlist simp)))
+(defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
 
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
 
@@ -66,9 +67,9 @@
   :forms '(("matrices" "A" "lambda") ("pencil" "M" "S" "W" "lambda"))
   :trailing '("solution") :options '("where" "unknowns" "lambda") :kinds *analysis-kinds*)
 (core-rule "CharacteristicPolynomial" (cons "matrices" *analysis-states*) "analysis/characteristic"
-  "analysis_characteristic_polynomial" "A" '("lambda" $lambda))
+  "analysis_characteristic_polynomial" "A" *analysis-lambda*)
 (core-rule "CharacteristicPolynomial" (cons "pencil" *analysis-motions*) "analysis/characteristic"
-  "analysis_pencil_polynomial" "M" "S" "W" '("lambda" $lambda))
+  "analysis_pencil_polynomial" "M" "S" "W" *analysis-lambda*)
 
 (core-rule-same-as "polynomial" *analysis-kinds* "CharacteristicPolynomial")
 
@@ -77,7 +78,7 @@
                                     ("LienardChipart" "analysis/lienard_chipart" "analysis_lienard_chipart"))
       do (core-public name :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
                            :options '("where" "unknowns" "lambda") :kinds *analysis-kinds*)
-         (core-rule name :any part function "polynomial" '("lambda" $lambda)))
+         (core-rule name :any part function "polynomial" *analysis-lambda*))
 
 (core-public "Stability"
   :forms '(("equations" "equations" "solution"))
@@ -87,3 +88,27 @@
   (list "laws" *analysis-none*) (list "unknowns" *analysis-none*))
 (core-rule "Stability" *analysis-motions* "analysis/stability" "analysis_stability_motion"
   "LagrangeEquations" "coordinates" "solution" (list "where" *analysis-none*) (list "laws" *analysis-none*))
+
+;;; Matrices and forms
+
+(core-public "RootCount" :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
+                         :options '("where" "unknowns" "lambda") :kinds *analysis-kinds*)
+(core-rule "RootCount" :any "analysis/root_count" "analysis_root_count" "polynomial" *analysis-lambda*)
+
+(core-public "RealNegativeRoots" :forms '(("polynomial" "polynomial" "u")))
+(core-rule "RealNegativeRoots" :any "analysis/real_roots" "analysis_real_negative_roots" "polynomial" "u")
+
+(loop for (name function) in '(("LeadingMinors" "analysis_leading_minors") ("Signature" "analysis_signature")
+                               ("Definite" "analysis_definite"))
+      do (core-public name :forms '(("matrices" "A")))
+         (core-rule name :any "analysis/definite" function "A"))
+
+(core-public "ForceStructure" :forms '(("pencil" "M" "S" "W"))
+                              :trailing '("solution") :options '("where") :kinds *analysis-motions*)
+(core-rule "ForceStructure" :any "analysis/forces" "analysis_force_structure" "M" "S" "W")
+
+(core-public "KelvinChetaev" :forms '(("forces" "M" "D" "G" "K" "P"))
+                             :trailing '("solution") :options '("where") :kinds *analysis-motions*)
+(core-rule "KelvinChetaev" :any "analysis/forces" "analysis_kelvin_chetaev" "M" "D" "G" "K" "P")
+(loop for part in '("D" "G" "K" "P")
+      do (core-rule-field part *analysis-motions* "ForceStructure" part))

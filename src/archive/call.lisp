@@ -20,13 +20,12 @@
 (defun archive-split-arguments (arguments)
   "Two values: the leading arguments, and the options, equations at the end."
   (let ((first-option (or (position-if #'archive-equation-p arguments) (length arguments))))
+    (when (some #'archive-holds-set-p arguments)
+      (core-error "an argument holds a set { }, in which order and equal items are lost; use [ ]"))
     (dolist (late (nthcdr first-option arguments))
       (unless (archive-equation-p late)
         (core-error "options such as save = false come after all other arguments; found ~a after one" (core-words (list late)))))
     (values (subseq arguments 0 first-option) (nthcdr first-option arguments))))
-
-(defun archive-set-p (e)
-  (and (consp e) (consp (car e)) (or (eq (caar e) '$set) (some #'archive-set-p (cdr e)))))
 
 (defun archive-system-p (argument public)
   "Whether ARGUMENT is a path or a description list."
@@ -55,8 +54,6 @@
     call))
 
 (defun archive-give (call name value)
-  (when (archive-set-p value)
-    (core-error "the argument ~a holds a set { }, in which order and equal items are lost; use [ ]" name))
   (setf (gethash name (archive-call-given call)) value))
 
 (defun archive-count-words (n one) (format nil "~r ~a~:[s~;~]" n one (= n 1)))

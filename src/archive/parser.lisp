@@ -313,7 +313,7 @@
 
 (defun archive-symbol (name)
   "The Maxima symbol of NAME."
-  (intern-invert-case (concatenate 'string "$" name)))
+  (getalias (intern-invert-case (concatenate (quote string) "$" name))))
 
 (defun archive-parse-name! (reader)
   (let ((name (reader-value reader)) (primes (reader-primes reader)) (from (reader-from reader)))
@@ -480,7 +480,8 @@
     (let* ((*archive-reader* reader) (*archive-position* (reader-from reader)) (from (reader-from reader)))
       (when (eq (reader-kind reader) :end)
         (archive-fault reader from "an empty value"))
-      (let ((value (archive-parse-or! reader)))
+      (let ((value (handler-case (archive-parse-or! reader)
+                     (arithmetic-error () (archive-fault reader (reader-from reader) "a result outside the range of doubles")))))
         (unless (eq (reader-kind reader) :end)
           (archive-fault reader (reader-from reader) "found ~a, expected an operator or the end of the value"
                          (archive-token-shown reader)))

@@ -23,10 +23,22 @@
 (defun archive-input-name (input) (if (consp input) (car input) input))
 
 (defun archive-missing (call name)
-  (if (archive-call-archive call)
-      (core-error "~a is needed, and this ~a archive does not give it~@[ (~a)~]; write ~a = .. into [system] or into the call"
-                  name (archive-call-kind call) (archive-path (archive-call-archive call)) name)
-      (core-error "~a is needed; give it as an argument or as an option ~a = .." name name)))
+  "The error for a quantity that neither the call nor the archive gives."
+  (let ((archive (archive-call-archive call)) (kind (archive-call-kind call)))
+    (cond ((archive-wanted-option name kind)
+           (core-error "give the option ~a = .. as well" (archive-wanted-option name kind)))
+          ((and archive (gethash name *core-publics*))
+           (core-error "~a is for ~{~a~^, ~} archives, and ~:[this description~;~:*~a~] is of kind ~a" name
+                       (core-public-kinds (gethash name *core-publics*)) (archive-path archive) kind))
+          (archive
+           (core-error "~a is needed, and ~:[this description~;~:*~a~] does not give it; write ~a = .. into [system] or into the call"
+                       name (archive-path archive) name))
+          (t (core-error "~a is needed; give it as an argument or as an option ~a = .." name name)))))
+
+(defun archive-wanted-option (name kind)
+  "An option without which there is no rule for NAME in archives of KIND, or nil."
+  (let ((rule (core-find-rule name kind (constantly t))))
+    (and rule (null (core-find-rule name kind (constantly nil))) (rule-given rule))))
 
 ;;; What a quantity depends on
 

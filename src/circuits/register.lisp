@@ -26,3 +26,14 @@
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "description")
+
+;;; Linear circuits have Lagrange's function, and with it every form of equations: in loop charges
+
+(core-public "LoopLagrangian" :kinds '("circuit"))
+(core-rule "LoopLagrangian" '("circuit") "circuits/lagrangian" "circuits_loop_lagrangian" "description")
+
+(core-public "NodeLagrangian" :kinds '("circuit"))
+(core-rule "NodeLagrangian" '("circuit") "circuits/lagrangian" "circuits_node_lagrangian" "description")
+
+(loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R") ("forces" "Q"))
+      do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
