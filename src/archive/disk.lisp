@@ -41,7 +41,8 @@
              (archive-c-call "chown" sb-alien:int (sb-alien:c-string to) (sb-alien:unsigned-int uid)
                              (sb-alien:unsigned-int gid))
              (archive-c-call "chmod" sb-alien:int (sb-alien:c-string to) (sb-alien:unsigned-int (logand mode #o7777)))))
-  #-sbcl (progn from to nil))
+  #-sbcl (archive-shell-status (format nil "chmod --reference=~a ~a 2>/dev/null" (archive-shell-quoted from)
+                                       (archive-shell-quoted to))))
 
 (defun archive-sync (stream)
   "What was written to STREAM is on the disk when this returns."
@@ -80,39 +81,49 @@
       (let ((true (ignore-errors (probe-file (archive-native-path name)))))
         (if true (archive-native-name true) name))))
 
-;; A lock on the folder, so that two writers take turns; the system releases it when a process dies
+;; A lock on the folder, so that writers take turns; the system releases it when a process dies
 
-(defconstant archive-lock-tries 200)
+(defparameter *archive-lock-tries* 200 "Tries, twenty in a second, before a writer goes on without the lock.")
+
+(defvar *archive-locked* nil "True while this process has the lock on the folder it writes in.")
+
+#+sbcl
+(defun archive-flock (handle)
+  "Tries for the lock on the open folder HANDLE; true when it is ours."
+  (loop repeat *archive-lock-tries*
+        thereis (zerop (archive-c-call "flock" sb-alien:int (sb-alien:int handle) (sb-alien:int 6)))
+        do (sleep 0.05)))
 
 (defun archive-lock (folder)
-  "A handle of the lock on FOLDER, or nil where the system has none or another keeps it for ten seconds."
+  "Two values: a handle of FOLDER to close afterwards, or nil, and whether its lock is ours."
   #+sbcl (let ((handle (archive-c-call "open" sb-alien:int (sb-alien:c-string (if (string= folder "") "." folder))
                                        (sb-alien:int #o2000000))))
-           (unless (minusp handle)
-             (loop repeat archive-lock-tries
-                   until (zerop (archive-c-call "flock" sb-alien:int (sb-alien:int handle) (sb-alien:int 6)))
-                   do (sleep 0.05))
-             handle))
-  #-sbcl (progn folder nil))
+           (if (minusp handle) (values nil nil) (values handle (archive-flock handle))))
+  #-sbcl (progn folder (values nil nil)))
 
 (defun archive-unlock (handle)
   #+sbcl (when handle (archive-c-call "close" sb-alien:int (sb-alien:int handle)))
   #-sbcl handle)
 
+(defun archive-call-locked (name function)
+  "Calls FUNCTION while no other writer of ours works in the folder of the file NAME."
+  (multiple-value-bind (handle locked) (archive-lock (archive-folder name))
+    (unwind-protect (let ((*archive-locked* locked)) (funcall function))
+      (archive-unlock handle))))
+
 (defmacro archive-with-lock ((name) &body body)
-  "BODY while no other writer of ours works in the folder of the file NAME."
-  (let ((handle (gensym)))
-    `(let ((,handle (archive-lock (archive-folder ,name))))
-       (unwind-protect (progn ,@body)
-         (archive-unlock ,handle)))))
+  `(archive-call-locked ,name (lambda () ,@body)))
 
 ;; Replacing a file
 
 (defvar *archive-drafts* 0 "Drafts written so far.")
 
 (defun archive-draft-name (name)
-  "A name for a draft in the folder of NAME that no other process uses."
-  (format nil "~a.dynarch-~d-~d" (archive-folder name) (archive-process-number) (incf *archive-drafts*)))
+  "A name for a draft in the folder of NAME: always the same under the lock, so that the draft of a process that died is
+taken away by the next one; else one that no other process has."
+  (if *archive-locked*
+      (format nil "~a.dynarch-draft" (archive-folder name))
+      (format nil "~a.dynarch-~d-~d" (archive-folder name) (archive-process-number) (incf *archive-drafts*))))
 
 (defmacro archive-or-fault (text &body body)
   "BODY; an error in it becomes one that says TEXT."
@@ -147,6 +158,7 @@
 (defun archive-put-file (name bytes unchanged-p)
   "Gives the file NAME the content BYTES by way of a draft; nil, and no change, when UNCHANGED-P says no at the end."
   (let ((draft (archive-draft-name name)) (done nil))
+    (archive-unlink draft)
     (unwind-protect
          (progn
            (archive-write-draft draft bytes)
