@@ -19,6 +19,10 @@ check "? finds functions of a package that is not loaded" \
 check "?? finds by a part of the name" \
   "$(printf 'load("analysis")$\n?? LienardCh\n' | answer | first_line)" " -- Function: LienardChipart (<p>, <lambda>)"
 
+check "archives of the examples are found by name" \
+  "$(printf 'load("linmodel")$\nForceFunction("spherical_pendulum.txt", save = false);\n' | answer | grep . | tail -n 1 | tr -d ' ')" \
+  "-glmcos(theta)"
+
 # The session of README.md in a copy of the examples: inputs, and answers without blank lines, indent and progress lines.
 readme_inputs() { sed -n 's/^    (%i[0-9]*) //p' "$here/../README.md"; }
 readme_answers() { awk '/^    \(%i1\)/ { on = 1 } on && /^[^ ]/ { exit } on && !/^    \(%i/' "$here/../README.md" | sed 's/^    //'; }

@@ -1,10 +1,12 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Read at the start of the Maxima that tools/maxima starts, which says where the repository is:
-;;; load("linmodel"), load("circuits") and load("analysis") are then found from any folder.
+;;; load("linmodel"), load("circuits") and load("analysis") are then found from any folder, and so are, last, the
+;;; archives of examples that the manual uses.
 
 (in-package :maxima)
 
-(setq $file_search_maxima
-      (list* '(mlist)
-             (concatenate 'string (maxima-getenv "DYNARCH_REPOSITORY") "/$$$.mac")
-             (rest $file_search_maxima)))
+(let ((repository (maxima-getenv "DYNARCH_REPOSITORY")))
+  (setq $file_search_maxima
+        (append (list '(mlist) (concatenate 'string repository "/$$$.mac"))
+                (rest $file_search_maxima)
+                (list (concatenate 'string repository "/examples/$$$.txt")))))
