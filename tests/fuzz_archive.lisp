@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Laws of the archive's reader and speller on random input, the same at every run: expressions that Maxima has simplified are
 ;;; read back as they were spelled; archives with random damage end in a value or in one message with its place, in time, and
-;;; never in a Lisp error. Called by tests/rtest_archive_grammar.mac and, with more cases, by tools/fuzz.
-;;; Look first at fuzz-check-damage.
+;;; never in a Lisp error. Called by tests/rtest_archive_*.mac and, with more cases, by tools/fuzz.
+;;; Look first at fuzz-read.
 
 (in-package :maxima)
 
@@ -128,7 +128,7 @@
   (fuzz-first-failure
    count seed
    (lambda ()
-     (let* ((e (or (fuzz-settled (fuzz-value (1+ (fuzz-random 3)))) 0)) (same nil)
+     (let* ((e (or (fuzz-settled (fuzz-value (1+ (fuzz-random 5)))) 0)) (same nil)
             (trouble (nth-value 1 (core-caught (lambda () (setq same (fuzz-reads-back-p e)))))))
        (cond (trouble (format nil "~a -- ~s" trouble e))
              ((not same) (format nil "~a -- ~s" (archive-spell e) e)))))))
@@ -205,12 +205,83 @@
          (loop repeat (1+ (fuzz-random 3)) do (setq bytes (fuzz-damage bytes)))
          (fuzz-read bytes))))))
 
-(defun $fuzz_truncations (text)
-  "[] if TEXT cut after each of its bytes is read or refused with a place, else the first cut that is not."
-  (let ((bytes (coerce (archive-utf8-bytes-of text) 'list)))
+(defun $fuzz_truncations (name)
+  "[] if the file NAME cut after each of its bytes is read or refused with a place, else the first cut that is not."
+  (let ((bytes (coerce (archive-file-bytes name) 'list)))
     (loop for n from 0 to (length bytes)
           do (let ((failure (fuzz-read (subseq bytes 0 n))))
                (when failure (return (list '(mlist simp) n failure))))
           finally (return (list '(mlist simp))))))
 
-(defun archive-utf8-bytes-of (text) (map 'vector #'char-code text))
+;; For tests of single values and texts
+
+(defun $grammar_value (text)
+  "The value that TEXT spells, or the message that it gets."
+  (multiple-value-bind (value trouble) (core-caught (lambda () (list (archive-parse-value text :relations t))))
+    (or trouble (car value))))
+
+(defun $grammar_double (text)
+  "The same, decimals being doubles."
+  (multiple-value-bind (value trouble) (core-caught (lambda () (list (archive-parse-value text :doubles t))))
+    (or trouble (car value))))
+
+(defun $grammar_text (e)
+  "The text of E, or the message that it gets."
+  (multiple-value-bind (text trouble) (core-caught (lambda () (archive-spell e)))
+    (or trouble text)))
+
+(defun $grammar_spelled (text)
+  "TEXT as the speller writes what it means, or the message that it gets."
+  (multiple-value-bind (again trouble)
+      (core-caught (lambda () (archive-spell (archive-parse-value text))))
+    (or trouble again)))
+
+(defun $grammar_repeated (text count)
+  "TEXT, COUNT times."
+  (with-output-to-string (out) (loop repeat count do (write-string text out))))
+
+(defun $grammar_kind (text)
+  "`read', or `refused' with a place, and in time; else what went wrong."
+  (let* ((start (get-internal-run-time))
+         (trouble (nth-value 1 (core-caught (lambda () (archive-parse-value text :file "fuzz.txt" :relations t)))))
+         (seconds (/ (- (get-internal-run-time) start) internal-time-units-per-second)))
+    (cond ((> seconds *fuzz-seconds*) (format nil "took ~,1f seconds" (float seconds)))
+          ((null trouble) '$read)
+          ((or (search "failed inside" trouble) (not (fuzz-placed-p trouble))) trouble)
+          (t '$refused))))
+
+(defun grammar-entry (entry)
+  (archive-inert 'mlist (list (or (entry-key entry) '$row) (entry-line entry) (archive-entry-parsed entry :relations t))))
+
+(defun $grammar_archive (text)
+  "The sections of TEXT, each a list of its name and of [key, line, value], or the message that it gets."
+  (multiple-value-bind (sheet trouble) (core-caught (lambda () (archive-split text "a.txt")))
+    (or trouble
+        (archive-inert 'mlist
+                       (loop for section in (sheet-sections sheet)
+                             when (section-entries section)
+                               collect (archive-inert 'mlist (cons (section-name section)
+                                                                   (mapcar #'grammar-entry (section-entries section)))))))))
+
+(defun $grammar_ranges (text)
+  "The text of each section from its header to its last entry."
+  (let ((sheet (archive-split text "a.txt" :parse nil)))
+    (archive-inert 'mlist
+                   (loop for section in (sheet-sections sheet)
+                         collect (subseq text (section-start section) (section-end section))))))
+
+(defun $grammar_bytes (list)
+  "The sections of the text whose bytes are LIST, or the message that it gets."
+  (multiple-value-bind (text trouble)
+      (core-caught (lambda () (archive-text-of-bytes (coerce (cdr list) 'archive-bytes) "a.txt")))
+    (or trouble ($grammar_archive text))))
+
+(defun $grammar_file (name)
+  "The number of characters of the file NAME, or the message that it gets."
+  (multiple-value-bind (text trouble) (core-caught (lambda () (archive-read-file name)))
+    (or trouble (length text))))
+
+(defun $grammar_write (name list)
+  "Writes the bytes LIST into the file NAME."
+  (with-open-file (out name :direction :output :if-exists :supersede :element-type '(unsigned-byte 8))
+    (dolist (byte (cdr list) '$done) (write-byte byte out))))

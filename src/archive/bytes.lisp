@@ -101,9 +101,22 @@ waits."
       (values (sb-sys:make-fd-stream descriptor :input t :buffering :full :element-type '(unsigned-byte 8))
               size)))
   #-sbcl
-  (let ((stream (or (ignore-errors (open (archive-native-path name) :element-type '(unsigned-byte 8)))
-                    (core-error "~a cannot be read: check its permissions" name))))
-    (values stream (file-length stream))))
+  (archive-open-any-name name))
+
+#-sbcl
+(defun archive-open-any-name (name)
+  "Two values: a stream of bytes from the file NAME, and its size. GCL takes [, * and ? in names for wild cards: a file so named
+is read from a copy, which has no name any more once it is open."
+  (let* ((plain (notany (lambda (c) (find c "[]*?\\")) name))
+         (copy (if plain name (format nil "~a/dynarch-~d-~d" $maxima_tempdir (get-internal-real-time) (random 1000000)))))
+    (unless plain
+      (archive-shell-status (format nil "umask 077; head -c ~d -- ~a > ~a" (1+ *archive-file-size*)
+                                    (archive-shell-quoted name) (archive-shell-quoted copy))))
+    (let ((stream (ignore-errors (open (archive-native-path copy) :element-type '(unsigned-byte 8)))))
+      (unless plain (ignore-errors (delete-file copy)))
+      (if stream
+          (values stream (file-length stream))
+          (core-error "~a cannot be read: check its permissions" name)))))
 
 (defun archive-stream-bytes (stream size name)
   "The SIZE bytes of STREAM, or an error if they are more than the limit."

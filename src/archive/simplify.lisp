@@ -116,16 +116,23 @@
   "The least integer not below the size of NUMBER."
   (if (integerp number) (abs number) (ceiling (abs (cadr number)) (caddr number))))
 
+(defun archive-decimal-size (number)
+  "The logarithm to base 10 of NUMBER, or of its larger part, as a rational that is a little too large."
+  (let ((n (if (integerp number) (abs number) (max (abs (cadr number)) (caddr number)))))
+    (if (< n 1000000) (rational (+ (log (float n 1d0) 10) 1d-9)) (archive-integer-digits n))))
+
 (defun archive-check-power-size (base exponent)
   "An error if the number BASE to the number in EXPONENT has too many digits."
   (let ((part (archive-added-number exponent)))
     (when (and (mnump base) (not (floatp base)) (not (floatp part))
                (not (member base '(0 1 -1)))
-               (> (* (max 1 (archive-digits base)) (archive-ceiling part)) *archive-digits*))
+               (> (* (archive-decimal-size base) (archive-ceiling part)) *archive-digits*))
       (archive-refuse "a power with more than ~d digits" *archive-digits*))))
 
 (defun archive-check-number (number)
-  "NUMBER, or an error if it has too many digits."
+  "NUMBER, or an error if it has too many digits or, as a double, no value."
+  (when (and (floatp number) (not (<= (abs number) most-positive-double-float)))
+    (archive-refuse "a result outside the range of doubles"))
   (when (> (archive-digits number) *archive-weight*)
     (archive-refuse "a number with more than ~d digits" *archive-weight*))
   number)

@@ -335,3 +335,12 @@
         (e (if (archive-contains-p e 'mrat) ($totaldisrep e) e)))
     (with-output-to-string (*archive-out*)
       (archive-spell-at e (archive-level :any)))))
+
+(defun archive-settled-text (e &key doubles)
+  "The text of E that is spelled the same after it was read: Maxima may order the factors of a product anew when it is read."
+  (loop with text = (archive-spell e)
+        repeat 5
+        do (let ((again (archive-spell (archive-parse-value text :doubles doubles :relations t))))
+             (when (string= again text) (return text))
+             (setq text again))
+        finally (return text)))
