@@ -69,17 +69,10 @@
   "The folder of the file NAME, with its last slash; \"\" for the working folder."
   (subseq name 0 (1+ (or (position #\/ name :from-end t) -1))))
 
-(defun archive-special-p (name)
-  "Whether NAME has characters that GCL takes for a pattern."
-  #+sbcl (progn name nil)
-  #-sbcl (some (lambda (c) (find c "[*?\\")) name))
-
 (defun archive-followed (name)
   "The file that NAME is a link to, or NAME."
-  (if (archive-special-p name)
-      name
-      (let ((true (ignore-errors (probe-file (archive-native-path name)))))
-        (if true (archive-native-name true) name))))
+  (let ((true (ignore-errors (probe-file (archive-native-path name)))))
+    (if true (archive-native-name true) name)))
 
 ;; A lock on the folder, so that writers take turns; the system releases it when a process dies
 
@@ -141,16 +134,6 @@ taken away by the next one; else one that no other process has."
           (close out :abort (not written))))
       (unless (equalp bytes (archive-file-bytes draft)) (error "bytes are missing")))))
 
-(defun archive-in-folder (name function)
-  "Calls FUNCTION with a name for the file NAME that this Lisp can open."
-  #+gcl (if (archive-special-p (archive-folder name))
-            (let ((back (namestring (truename "."))))
-              (unwind-protect (progn (si::chdir (archive-folder name))
-                                     (funcall function (subseq name (length (archive-folder name)))))
-                (si::chdir back)))
-            (funcall function name))
-  #-gcl (funcall function name))
-
 (defun archive-exists-p (name)
   #+gcl (and (si::stat name) t)
   #-gcl (and (probe-file (archive-native-path name)) t))
@@ -173,4 +156,4 @@ taken away by the next one; else one that no other process has."
   (archive-ignore-size-limit)
   (when (and (archive-exists-p name) (not (archive-may-write-p name)))
     (core-error "it is read-only"))
-  (archive-in-folder name (lambda (name) (archive-put-file name bytes unchanged-p))))
+  (archive-put-file name bytes unchanged-p))

@@ -140,20 +140,23 @@
         line
         (format nil (format nil "~~a~~{~~a~~^,~~%~~~d@t~~}~~a" (+ indent 1)) open items close))))
 
-(defun archive-value-text (value indent)
-  "VALUE as text that begins in column INDENT."
+(defun archive-value-text (value indent doubles)
+  "VALUE as text that begins in column INDENT and reads back; with DOUBLES its decimals are doubles."
   (if (and (archive-list-p value) (cdr value))
-      (archive-wrapped "[" (mapcar (lambda (item) (archive-value-text item (1+ indent))) (cdr value)) "]" indent)
-      (archive-spell value)))
+      (archive-wrapped "["
+                       (mapcar (lambda (item) (archive-value-text item (1+ indent) doubles)) (cdr value))
+                       "]" indent)
+      (archive-settled-text value :doubles doubles)))
 
-(defun archive-part (key value)
-  (cons key (archive-value-text value (+ 3 (length key)))))
+(defun archive-part (key value doubles)
+  (cons key (archive-value-text value (+ 3 (length key)) doubles)))
 
-(defun archive-value-parts (value)
+(defun archive-value-parts (value doubles)
   "VALUE as a list of (key . text)."
   (if (archive-record-p value)
-      (mapcar (lambda (equation) (archive-part (core-spelling (second equation)) (third equation))) (cdr value))
-      (list (archive-part "value" value))))
+      (mapcar (lambda (equation) (archive-part (core-spelling (second equation)) (third equation) doubles))
+              (cdr value))
+      (list (archive-part "value" value doubles))))
 
 (defun archive-note-text (notes)
   "A list of texts as one string of the archive."
@@ -161,7 +164,7 @@
 
 (defun archive-result-text (name value from form checks left-out)
   "The lines of the section [result NAME], without the last line end."
-  (let ((parts (archive-value-parts value)))
+  (let ((parts (archive-value-parts value (archive-numerical-p name))))
     (format nil "[result ~a]~%from = ~a~%own = ~a~%~@[form = ~a~%~]~@[check = ~a~%~]~@[left_out = ~a~%~]~{~a~^~%~}"
             name from (archive-own-digest parts)
             form

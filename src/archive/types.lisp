@@ -21,7 +21,7 @@
     (if trouble (values nil trouble) (values converted nil))))
 
 (defun archive-type-function (type)
-  (intern (concatenate 'string "ARCHIVE-AS-" (symbol-name type)) :maxima))
+  (second (assoc type *archive-types*)))
 
 (defun archive-mismatch (key value trouble)
   "The sentence for a VALUE that is not what KEY wants."
@@ -230,10 +230,10 @@
   (archive-checked-equations value #'archive-a-name #'archive-a-name))
 
 (defun archive-a-law (value)
-  "f(u, ..), its arguments names."
+  "f(u, ..), its arguments names; a prescribed function has the argument t."
   (unless (and (consp value) (consp (car value)) (cdr value) (archive-symbol-p (caar value)))
     (archive-unfit "~a is not f(u)" (archive-value-shown value)))
-  (archive-check-distinct (mapcar #'archive-a-name (cdr value)))
+  (archive-check-distinct (mapcar #'archive-a-name (remove '$t (cdr value))))
   value)
 
 (defun archive-as-laws (value)
