@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/reduction"))
+  (core-require "algebra/kernels"))
 
 (defun algebra-monomial (p)
   "The monomial that divides P: a list of (variable . exponent)."

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/reduction"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/quotient" "algebra/reduction"))
 
 (defun algebra-order-kernels ()
   (algebra-number-kernels)
@@ -30,20 +30,20 @@
   (let ((product (cons 1 1)))
     (dolist (factor factors product)
       (algebra-guard-product (car product) (car factor))
-      (setq product (rattimes product factor t)))))
+      (setq product (algebra-times product factor)))))
 
 (defun algebra-power (base n)
   (when (and (minusp n) (algebra-vanishes-p (car base)))
     (core-error "division by zero"))
   (algebra-guard-power (car base) n)
   (algebra-guard-power (cdr base) n)
-  (ratexpt base n))
+  (algebra-to-power base n))
 
 (defun algebra-exponential (terms)
   (algebra-product
    (loop for (factor . unit) in terms
-         collect (ratexpt (cons (algebra-variable (algebra-unit-cosine unit)) 1)
-                          (* factor (algebra-unit-denominator unit))))))
+         collect (algebra-to-power (cons (algebra-variable (algebra-unit-cosine unit)) 1)
+                                   (* factor (algebra-unit-denominator unit))))))
 
 ;;; Sums of angles by the theorem of addition, multiples by Chebyshev's polynomials.
 
@@ -65,16 +65,16 @@
                               (* (car term) (algebra-unit-denominator (cdr term))))))
 
 (defun algebra-add-angles (a b sign)
-  (flet ((times (x y) (rattimes x y t)))
-    (cons (ratplus (times (car a) (car b)) (times (cons sign 1) (times (cdr a) (cdr b))))
-          (ratplus (times (cdr a) (car b)) (times (car a) (cdr b))))))
+  (cons (algebra-plus (algebra-times (car a) (car b))
+                      (algebra-times (cons sign 1) (algebra-times (cdr a) (cdr b))))
+        (algebra-plus (algebra-times (cdr a) (car b)) (algebra-times (car a) (cdr b)))))
 
 (defun algebra-multiple-angle (unit n)
   (let ((cosine (algebra-variable (algebra-unit-cosine unit)))
         (sine (algebra-variable (algebra-unit-sine unit))))
     (cond ((minusp n)
            (let ((positive (algebra-multiple-angle unit (- n))))
-             (cons (car positive) (ratminus (cdr positive)))))
+             (cons (car positive) (cons (pminus (cadr positive)) (cddr positive)))))
           ((> n 500) (core-error "sin(~A*u) and sin(u) in one formula are too much to expand" n))
           (t (algebra-chebyshev cosine sine n)))))
 

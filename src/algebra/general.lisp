@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/reduction"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/quotient"))
 
 (defun algebra-general (p)
   "The expression of the polynomial P."
@@ -36,7 +36,7 @@
   "N/D as a list of (denominator . terms): quotients of single terms with one denominator."
   (let ((parts nil))
     (dolist (term (algebra-single-terms n) parts)
-      (let* ((quotient (ratreduce term d))
+      (let* ((quotient (algebra-quotient-of term d))
              (part (assoc (cdr quotient) parts :test #'equal)))
         (if part
             (push (car quotient) (cdr part))

@@ -1,13 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
 ;;; Linear equations with symbolic coefficients: Cramer's rule by memoised minors for M x = b
-;;; (numerators over one determinant), elimination with exact zero tests for rank and for systems
-;;; that are singular or not square.
+;;; (numerators over one determinant), elimination with exact zero tests for systems that are
+;;; singular or not square.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/minors" "algebra/zero"))
+  (core-require "algebra/minors" "algebra/zero" "algebra/rank"))
 
 (defun $algebra_inverse_times (m b)
   "x with M x = b, b a list (x a list) or a matrix of columns (x a matrix)."
@@ -38,7 +38,7 @@
            (determinant (algebra-expand-first-row matrix cofactors))
            (cleared (loop for row in right
                           for d in denominators
-                          collect (loop for b in row collect (rattimes b (cons d 1) t)))))
+                          collect (loop for b in row collect (algebra-times b (cons d 1))))))
       (when (algebra-vanishes-p determinant)
         (core-error "the matrix of linear equations is singular"))
       (cons '($matrix simp)
@@ -56,28 +56,14 @@
 (defun algebra-cramer-row (cofactors j right determinant)
   (loop for column below (length (car right))
         collect (algebra-general-reduced
-                 (ratquotient (algebra-sum
-                               (loop for row in right
+                 (algebra-over-quotient
+                  (algebra-sum (loop for row in right
                                      for i from 0
-                                     collect (rattimes (cons (aref cofactors i j) 1)
-                                                       (nth column row) t)))
-                              (cons determinant 1)))))
+                                     collect (algebra-times (cons (aref cofactors i j) 1)
+                                                            (nth column row))))
+                  (cons determinant 1)))))
 
 ;;; Elimination on general expressions, for systems of any shape.
-
-(defun $algebra_rank (m)
-  (algebra-check-matrix m "the matrix of a rank")
-  (length (algebra-pivots (nth-value 0 (algebra-echelon (algebra-expression-rows m)
-                                                        (length (cdadr m)))))))
-
-(defun algebra-expression-rows (m)
-  (loop for row in (cdr m) collect (mapcar #'algebra-normal-form (cdr row))))
-
-(defun algebra-pivots (rows)
-  "Columns of the leading ones."
-  (loop for row in rows
-        for place = (position-if-not #'algebra-surely-zero-p row)
-        when place collect place))
 
 (defun algebra-surely-zero-p (e)
   (or (eql e 0)

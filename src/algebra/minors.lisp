@@ -47,7 +47,7 @@
 (defun algebra-poly-lcm (a b)
   (cond ((eql a 1) b)
         ((eql b 1) a)
-        (t (ptimes a (pquotient b (pgcd a b))))))
+        (t (ptimes a (pquotient b (algebra-gcd a b))))))
 
 (defun algebra-clear-rows (rows)
   "A square array of polynomials, and the product of the rows' denominators."
@@ -113,7 +113,7 @@
 (defun algebra-quotient-determinant (rows)
   (multiple-value-bind (matrix denominator) (algebra-clear-rows rows)
     (let ((determinant (algebra-determinant-polynomial matrix)))
-      (ratreduce determinant denominator))))
+      (algebra-quotient-of determinant denominator))))
 
 ;;; Fraction-free elimination.
 

@@ -82,7 +82,7 @@
         (setq quotient (algebra-reduce-root quotient kernel))))))
 
 (defun algebra-ratio-of (above below)
-  (ratreduce (ptimes (car above) (cdr below)) (ptimes (car below) (cdr above))))
+  (algebra-quotient-of (ptimes (car above) (cdr below)) (ptimes (car below) (cdr above))))
 
 (defun algebra-shortest-angles (quotient)
   "For each angle below the line write it in sines or in cosines, whichever cancels more."
@@ -97,9 +97,10 @@
            (n-cosine (algebra-eliminate-cosine n unit))
            (d-sine (algebra-eliminate-sine d unit))
            (d-cosine (algebra-eliminate-cosine d unit))
-           (forms (list (ratreduce n-sine d-sine) (ratreduce n-cosine d-cosine)
-                        (ratreduce n-sine d-cosine) (ratreduce n-cosine d-sine)
-                        (ratreduce n-sine d) (ratreduce n-cosine d))))
+           (forms (loop for (above below) in (list (list n-sine d-sine) (list n-cosine d-cosine)
+                                                   (list n-sine d-cosine) (list n-cosine d-sine)
+                                                   (list n-sine d) (list n-cosine d))
+                        collect (algebra-quotient-of above below))))
       (algebra-least forms (lambda (form) (+ (algebra-poly-size (car form))
                                              (* 2 (algebra-poly-size (cdr form)))))))))
 

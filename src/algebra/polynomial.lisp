@@ -132,8 +132,8 @@
 (defun algebra-pencil-rows (entries variable)
   (let ((x (cons (algebra-variable variable) 1)))
     (flet ((entry (m s w)
-             (algebra-sum (list (rattimes (algebra-evaluate m) (ratexpt x 2) t)
-                                (rattimes (algebra-evaluate s) x t)
+             (algebra-sum (list (algebra-times (algebra-evaluate m) (algebra-to-power x 2))
+                                (algebra-times (algebra-evaluate s) x)
                                 (algebra-evaluate w)))))
       (apply #'mapcar (lambda (m s w) (mapcar #'entry m s w)) entries))))
 

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels"))
+  (core-require "algebra/kernels" "algebra/quotient"))
 
 (defun algebra-reduce (p)
   "The remainder of the polynomial P, a quotient (radicands may have denominators)."
@@ -72,11 +72,11 @@
         quotient
         (let ((lowered (algebra-lower-root p variable (algebra-kernel-degree kernel)
                                            (algebra-kernel-radicand kernel))))
-          (algebra-angles-again (ratquotient lowered (cons (cdr quotient) 1)))))))
+          (algebra-angles-again (algebra-over-quotient lowered (cons (cdr quotient) 1)))))))
 
 (defun algebra-angles-again (quotient)
   (let ((reduced (algebra-reduce-angles (car quotient))))
-    (if (eq reduced (car quotient)) quotient (ratreduce reduced (cdr quotient)))))
+    (if (eq reduced (car quotient)) quotient (algebra-quotient-of reduced (cdr quotient)))))
 
 (defun algebra-lower-root (p variable degree radicand)
   (cond ((or (atom p) (pointergp variable (car p))) (cons p 1))
@@ -84,15 +84,17 @@
          (algebra-sum
           (loop for (exponent coefficient) on (cdr p) by #'cddr
                 collect (multiple-value-bind (whole rest) (floor exponent degree)
-                          (rattimes (cons (ptimes coefficient
-                                                  (if (zerop rest) 1 (list variable rest 1)))
-                                          1)
-                                    (ratexpt radicand whole) t)))))
+                          (algebra-times (cons (ptimes coefficient
+                                                       (if (zerop rest)
+                                                           1
+                                                           (list variable rest 1)))
+                                               1)
+                                         (algebra-to-power radicand whole))))))
         (t (algebra-sum
             (loop for (exponent coefficient) on (cdr p) by #'cddr
-                  collect (rattimes (cons (list (car p) exponent 1) 1)
-                                    (algebra-lower-root coefficient variable degree radicand)
-                                    t))))))
+                  collect (algebra-times (cons (list (car p) exponent 1) 1)
+                                         (algebra-lower-root coefficient variable degree
+                                                             radicand)))))))
 
 (defun algebra-occurs-p (variable p)
   (cond ((atom p) nil)
@@ -113,10 +115,3 @@
 
 (defun algebra-vanishes-p (p)
   (pzerop (car (algebra-reduce p))))
-
-(defun algebra-sum (terms)
-  "Halves are added to halves: intermediate sums stay short."
-  (cond ((null terms) (cons 0 1))
-        ((null (cdr terms)) (car terms))
-        (t (let ((half (floor (length terms) 2)))
-             (ratplus (algebra-sum (subseq terms 0 half)) (algebra-sum (nthcdr half terms)))))))

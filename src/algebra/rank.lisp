@@ -1,0 +1,101 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; The rank of a matrix of expressions.  At a point modulo a large prime (rational points of the
+;;; circle for each angle) the rank r is a lower bound, with r rows and columns whose minor is
+;;; not zero.  The rank is r when every minor of r + 1 rows that borders that one vanishes exactly.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/minors" "algebra/modular" "algebra/zero"))
+
+(defun $algebra_rank (m)
+  (algebra-check-matrix m "the matrix of a rank")
+  (with-algebra-ring
+    (let* ((*algebra-exponential-form* t)
+           (*algebra-roots-apart* t)
+           (rows (mapcar (lambda (row) (nth-value 0 (algebra-common-denominator row)))
+                         (algebra-matrix-quotients m)))
+           (matrix (algebra-rectangle rows))
+           (minor (algebra-point-minor matrix)))
+      (algebra-border matrix (car minor) (cdr minor)))))
+
+(defun algebra-rectangle (rows)
+  (make-array (list (length rows) (length (car rows))) :initial-contents rows))
+
+(defun algebra-border (matrix rows columns)
+  "The rank, from the ROWS and COLUMNS of a minor that does not vanish."
+  (dotimes (i (array-dimension matrix 0) (length rows))
+    (unless (member i rows)
+      (dotimes (j (array-dimension matrix 1))
+        (unless (member j columns)
+          (unless (algebra-minor-vanishes-p matrix (cons i rows) (cons j columns))
+            (return-from algebra-border
+              (algebra-border matrix (cons i rows) (cons j columns)))))))))
+
+(defun algebra-minor-vanishes-p (matrix rows columns)
+  (let ((minor (algebra-reduce
+                (algebra-determinant-polynomial
+                 (algebra-square-array
+                  (loop for i in rows
+                        collect (loop for j in columns collect (aref matrix i j))))))))
+    (or (pzerop (car minor))
+        (case (algebra-polynomial-test (car minor))
+          (zero t)
+          (not-zero nil)
+          (t (if (algebra-nonzero-somewhere-p (algebra-general (car minor)))
+                 nil
+                 (core-error "it is not decided whether ~A vanishes"
+                             (algebra-short-text (algebra-general (car minor))))))))))
+
+;;; A point modulo a prime.
+
+(defun algebra-point-minor (matrix)
+  "(rows . columns) of a minor that does not vanish at a point; none if some kernel has no value."
+  (if (every #'algebra-kernel-sure (algebra-ring-kernels *algebra-ring*))
+      (algebra-modular-pivots (algebra-modular-matrix matrix (algebra-modular-point)))
+      '(nil)))
+
+(defun algebra-modular-point ()
+  "Values of all variables: for each angle c = (1-u^2)/(1+u^2), s = 2u/(1+u^2)."
+  (let ((point (make-hash-table :test #'eq)) (seed 20011))
+    (flet ((next () (setq seed (mod (+ (* seed 48271) 11) *algebra-prime*))))
+      (dolist (kernel (algebra-ring-kernels *algebra-ring*))
+        (setf (gethash (algebra-kernel-variable kernel) point) (next)))
+      (dolist (unit (algebra-ring-units *algebra-ring*) point)
+        (when (algebra-pair-p unit)
+          (destructuring-bind (c . s)
+              (algebra-modular-angle (next) (eq (algebra-unit-kind unit) 'circular))
+            (setf (gethash (algebra-kernel-variable (algebra-unit-cosine unit)) point) c
+                  (gethash (algebra-kernel-variable (algebra-unit-sine unit)) point) s)))))))
+
+(defun algebra-modular-angle (u circular)
+  (let* ((square (if circular (* u u) (- (* u u))))
+         (below (algebra-modular-inverse (1+ square))))
+    (cons (mod (* (- 1 square) below) *algebra-prime*)
+          (mod (* 2 u below) *algebra-prime*))))
+
+(defun algebra-modular-matrix (matrix point)
+  (let ((values (make-array (array-dimensions matrix))))
+    (dotimes (i (array-dimension matrix 0) values)
+      (dotimes (j (array-dimension matrix 1))
+        (setf (aref values i j) (algebra-modular-value (aref matrix i j) point))))))
+
+(defun algebra-modular-pivots (a)
+  (let ((rows nil) (columns nil))
+    (dotimes (j (array-dimension a 1) (cons rows columns))
+      (let ((pivot (loop for i below (array-dimension a 0)
+                         when (and (not (member i rows)) (plusp (aref a i j))) return i)))
+        (when pivot
+          (push pivot rows)
+          (push j columns)
+          (algebra-modular-clear a pivot j))))))
+
+(defun algebra-modular-clear (a pivot j)
+  (let ((inverse (algebra-modular-inverse (aref a pivot j))))
+    (dotimes (i (array-dimension a 0))
+      (unless (or (= i pivot) (zerop (aref a i j)))
+        (let ((factor (* (aref a i j) inverse)))
+          (dotimes (k (array-dimension a 1))
+            (setf (aref a i k)
+                  (mod (- (aref a i k) (* factor (aref a pivot k))) *algebra-prime*))))))))
