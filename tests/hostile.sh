@@ -1,0 +1,52 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Every public function on every example archive, in a clean session and in the one of tests/hostile.mac: the answers
+# (errors too: not every function is for every archive) and the archives with their results must be the same.
+
+here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
+root=$here/..
+. "$here/check"
+
+public_functions() {
+  cat "$root/linmodel.mac" "$root/circuits.mac" "$root/analysis.mac" | tr ',' '\n' |
+    sed -n 's/.*"\([A-Z][A-Za-z]*\)".*/\1/p' | sort -u
+}
+
+calls() {
+  (cd "$root/examples" && ls ./*.txt | sed 's|^\./||') | while read -r archive; do
+    public_functions | sed "s/\$/(\"$archive\")/"
+  done
+  cat <<'END'
+LagrangeEquations("spherical_pendulum.txt", simplify = true)
+InvariantManifolds("spherical_pendulum.txt", extend = [theta])
+Equilibria("equilibria.txt", where = [])
+END
+}
+
+# session FOLDER BEGINNING: makes all calls on copies in FOLDER; the answer to the n-th call is in FOLDER/n.
+session() {
+  mkdir "$1" && cp "$root"/examples/*.txt "$1"
+  {
+    printf 'load("linmodel")$ load("circuits")$ load("analysis")$ display2d: false$\n%s\n' "$2"
+    calls | awk '{ printf "print(\"== %d\")$ errcatch(%s)$ print(string(%%))$\n", NR, $0 }'
+  } >"$1/session.mac"
+  (cd "$1" && "$root/tools/maxima" --very-quiet <session.mac >answers 2>&1)
+  (cd "$1" && awk '/^== [0-9]+ *$/ { file = $2; next } file { print >file }' answers)
+}
+
+session clean ''
+session hostile "load(\"$here/hostile.mac\")\$"
+
+check "the sessions reach their end" "$(calls | wc -l) $(grep -c '^== ' hostile/answers)" \
+  "$(grep -c '^== ' clean/answers) $(grep -c '^== ' clean/answers)"
+number=0
+calls >calls
+while read -r call; do
+  number=$((number + 1))
+  check "$call" "$(cat "hostile/$number")" "$(cat "clean/$number")"
+done <calls
+for archive in clean/*.txt; do
+  check "$archive with its results" "$(diff "$archive" "hostile/${archive#*/}")" ""
+done
+
+summary
