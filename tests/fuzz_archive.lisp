@@ -31,7 +31,7 @@
       (fuzz-integer)))
 
 (defun fuzz-name ()
-  (fuzz-choice '($x $y $z $theta |$l1| $lambda $gamma $beta |$m| $m $e $i |$e| $psi $%pi $%e $x_1 $q2 |$Lagrange| $t)))
+  (getalias (fuzz-choice '($x $y $z $theta |$l1| $lambda $gamma $beta |$m| $m $e $i |$e| $psi $%pi $%e $x_1 $q2 |$Lagrange| $t))))
 
 (defun fuzz-atom ()
   (case (fuzz-random 8)
@@ -130,8 +130,8 @@
    (lambda ()
      (let* ((e (or (fuzz-settled (fuzz-value (1+ (fuzz-random 5)))) 0)) (same nil)
             (trouble (nth-value 1 (core-caught (lambda () (setq same (fuzz-reads-back-p e)))))))
-       (cond (trouble (format nil "~a -- ~s" trouble e))
-             ((not same) (format nil "~a -- ~s" (archive-spell e) e)))))))
+       (cond (trouble trouble)
+             ((not same) (archive-spell e)))))))
 
 (defun $fuzz_doubles (count seed)
   "[] if COUNT random doubles are read back bit for bit."

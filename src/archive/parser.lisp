@@ -3,14 +3,15 @@
 ;;;   weak to strong   or   and   not   = < <= > >= (no chains)   + -   * /   unary -   ^ (to the right)   '
 ;;; Names of functions that Maxima does not have are collected with their places: which of them the archive's own keys
 ;;; allow is known only when [system] has been read, see archive-check-functions.
-;;; Look first at archive-parse-value, then at the chain archive-parse-or! .. archive-parse-atom!.
+;;; Look first at archive-parse-value, then at the chain archive-parse-expression! .. archive-parse-atom!.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/tokens" "archive/simplify"))
 
-(defvar *archive-nesting* 200 "The most levels of nesting.")
+(defvar *archive-nesting* #-gcl 200 #+gcl 100
+  "The most levels of nesting. GCL has room for two thousand calls in each other, of Maxima's simplifier too.")
 (defparameter *archive-open-functions* 1000 "The most functions that an archive may leave open.")
 
 (defparameter *archive-functions*
@@ -73,59 +74,74 @@
 (defun archive-word-is (reader word)
   (and (eq (reader-kind reader) :name) (zerop (reader-primes reader)) (string= (reader-value reader) word)))
 
-(defmacro archive-deeper ((reader) &body body)
-  "BODY one level of nesting deeper."
-  `(progn
-     (when (> (incf (reader-depth ,reader)) *archive-nesting*)
-       (archive-fault ,reader (reader-from ,reader) "more than ~d levels of nesting" *archive-nesting*))
-     (multiple-value-prog1 (progn ,@body) (decf (reader-depth ,reader)))))
+(defun archive-go-deeper! (reader)
+  "One level of nesting more."
+  (when (> (incf (reader-depth reader)) *archive-nesting*)
+    (archive-fault reader (reader-from reader) "more than ~d levels of nesting" *archive-nesting*)))
 
 (defmacro archive-computed ((reader position) &body body)
   "BODY, with POSITION as the place of an error in a simplification."
   `(let ((*archive-position* ,position) (*archive-reader* ,reader)) ,@body))
 
-;; Conditions
+;; Expressions and conditions. GCL has room for about two thousand calls in each other: hence few functions from one level of
+;; nesting to the next.
 
-(defun archive-parse-conditions! (reader word operator next)
-  "What NEXT parses, joined by WORD."
-  (let* ((from (reader-from reader)) (first (funcall next reader)))
-    (if (not (archive-word-is reader word))
-        first
-        (let ((parts (list (archive-expect-condition reader from first))))
-          (loop while (archive-word-is reader word)
-                do (archive-next-token! reader)
-                   (let ((from (reader-from reader)))
-                     (push (archive-expect-condition reader from (funcall next reader)) parts)))
-          (archive-inert operator (nreverse parts))))))
+(defmacro archive-condition-or-sum (reader from)
+  "What stands between and, or: not .., a comparison, or a sum alone."
+  `(if (archive-word-is ,reader "not")
+       (archive-parse-not! ,reader)
+       (let ((left (archive-parse-sum! ,reader)))
+         (if (archive-relation-of ,reader) (archive-parse-relation! ,reader ,from left) left))))
+
+(defun archive-parse-expression! (reader)
+  "The weakest signs: or, and."
+  (let* ((from (reader-from reader)) (first (archive-condition-or-sum reader from)))
+    (if (or (archive-word-is reader "and") (archive-word-is reader "or"))
+        (archive-parse-conditions! reader from first)
+        first)))
+
+(defun archive-parse-condition! (reader)
+  (let ((from (reader-from reader)))
+    (archive-expect-condition reader from (archive-condition-or-sum reader from))))
 
 (defun archive-expect-condition (reader position e)
   (archive-expect-kind reader position e "a condition" :relation :truth-value))
 
-(defun archive-parse-or! (reader) (archive-parse-conditions! reader "or" 'mor #'archive-parse-and!))
+(defun archive-parse-conditions! (reader from first)
+  "What follows FIRST, which stands at FROM, after and, or."
+  (archive-expect-condition reader from first)
+  (let ((alternatives (list (archive-parse-conjunction! reader first))))
+    (loop while (archive-word-is reader "or")
+          do (archive-next-token! reader)
+             (push (archive-parse-conjunction! reader (archive-parse-condition! reader)) alternatives))
+    (if (cdr alternatives) (archive-inert 'mor (nreverse alternatives)) (car alternatives))))
 
-(defun archive-parse-and! (reader) (archive-parse-conditions! reader "and" 'mand #'archive-parse-not!))
+(defun archive-parse-conjunction! (reader first)
+  (let ((conditions (list first)))
+    (loop while (archive-word-is reader "and")
+          do (archive-next-token! reader)
+             (push (archive-parse-condition! reader) conditions))
+    (if (cdr conditions) (archive-inert 'mand (nreverse conditions)) first)))
 
 (defun archive-parse-not! (reader)
-  (if (archive-word-is reader "not")
-      (archive-deeper (reader)
-        (archive-next-token! reader)
-        (let ((from (reader-from reader)))
-          (archive-inert 'mnot (list (archive-expect-condition reader from (archive-parse-not! reader))))))
-      (archive-parse-relation! reader)))
+  (archive-go-deeper! reader)
+  (archive-next-token! reader)
+  (prog1 (archive-inert 'mnot (list (archive-parse-condition! reader)))
+    (decf (reader-depth reader))))
 
 (defun archive-relation-of (reader) (cdr (assoc (reader-kind reader) *archive-relations*)))
 
-(defun archive-parse-relation! (reader)
-  (let* ((from (reader-from reader)) (left (archive-parse-sum! reader)) (operator (archive-relation-of reader)))
-    (cond ((null operator) left)
-          (t (archive-expect-side reader from left)
-             (archive-next-token! reader)
-             (let* ((from (reader-from reader)) (right (archive-expect-side reader from (archive-parse-sum! reader))))
-               (when (archive-relation-of reader)
-                 (archive-fault reader (reader-from reader)
-                                "found ~a after a comparison; comparisons do not chain, write each one by itself"
-                                (archive-token-shown reader)))
-               (archive-inert operator (list left right)))))))
+(defun archive-parse-relation! (reader from left)
+  "The comparison whose left side LEFT stands at FROM."
+  (archive-expect-side reader from left)
+  (let ((operator (archive-relation-of reader)))
+    (archive-next-token! reader)
+    (let* ((from (reader-from reader)) (right (archive-expect-side reader from (archive-parse-sum! reader))))
+      (when (archive-relation-of reader)
+        (archive-fault reader (reader-from reader)
+                       "found ~a after a comparison; comparisons do not chain, write each one by itself"
+                       (archive-token-shown reader)))
+      (archive-inert operator (list left right)))))
 
 (defun archive-expect-side (reader position e)
   "A side of an equation: anything but another equation."
@@ -149,53 +165,53 @@
 
 (defun archive-parse-product! (reader)
   "Factors and divisors. Their signs are put in front as one -1: -(a+b)*c is -1*(a+b)*c."
-  (let ((from (reader-from reader)) (minus nil) (factors '()) (places '()))
-    (flet ((take (over)
-             (let ((place (reader-from reader)))
+  (let ((from (reader-from reader)))
+    (multiple-value-bind (first minus) (archive-parse-factor! reader)
+      (cond ((member (reader-kind reader) '(:times :over))
+             (archive-parse-more-factors! reader from first minus))
+            (minus (archive-minus reader from first))
+            (t first)))))
+
+(defun archive-parse-more-factors! (reader from first minus)
+  "What follows the factor FIRST at FROM, which is negative if MINUS."
+  (let ((factors (list first)) (places (list from)))
+    (loop while (member (reader-kind reader) '(:times :over))
+          do (let ((over (eq (reader-kind reader) :over)))
+               (archive-next-token! reader)
+               (push (reader-from reader) places)
                (multiple-value-bind (factor negative) (archive-parse-factor! reader)
                  (when negative (setq minus (not minus)))
-                 (push place places)
-                 (push (if over (archive-over reader place factor) factor) factors)))))
-      (take nil)
-      (loop while (member (reader-kind reader) '(:times :over))
-            do (let ((over (eq (reader-kind reader) :over)))
-                 (archive-next-token! reader)
-                 (take over))))
-    (cond ((cdr factors)
-           (when minus (setq factors (append factors (list -1)) places (append places (list from))))
-           (archive-multiply reader (nreverse places) (nreverse factors)))
-          (minus (archive-minus reader from (car factors)))
-          (t (car factors)))))
+                 (push (if over (archive-over reader (car places) factor) factor) factors))))
+    (when minus
+      (push -1 factors)
+      (push from places))
+    (archive-multiply reader (nreverse places) (nreverse factors))))
 
 (defun archive-parse-factor! (reader)
-  "Two values: a factor without the signs before it, and whether they make it negative."
-  (case (reader-kind reader)
-    ((:minus :plus)
-     (archive-deeper (reader)
-       (let ((minus (eq (reader-kind reader) :minus)))
-         (archive-next-token! reader)
-         (let ((from (reader-from reader)))
-           (multiple-value-bind (factor negative) (archive-parse-factor! reader)
-             (archive-expect-kind reader from factor "an expression" :scalar :list :matrix)
-             (values factor (if minus (not negative) negative)))))))
-    (t (values (archive-parse-power! reader) nil))))
+  "Two values: a power without the signs before it, and whether they make it negative."
+  (let ((depth (reader-depth reader)) (from (reader-from reader)) (minus nil))
+    (loop while (member (reader-kind reader) '(:minus :plus))
+          do (archive-go-deeper! reader)
+             (when (eq (reader-kind reader) :minus) (setq minus (not minus)))
+             (archive-next-token! reader))
+    (let* ((place (reader-from reader)) (factor (archive-parse-atom! reader)))
+      (when (eq (reader-kind reader) :power)
+        (setq factor (archive-parse-exponent! reader place factor)))
+      (unless (= place from)
+        (archive-expect-kind reader place factor "an expression" :scalar :list :matrix))
+      (setf (reader-depth reader) depth)
+      (values factor minus))))
 
-(defun archive-parse-signed! (reader)
-  "A factor with the signs before it."
+(defun archive-parse-exponent! (reader place base)
+  "BASE, which stands at PLACE, to the power that follows."
+  (archive-expect-scalar reader place base)
+  (archive-go-deeper! reader)
+  (archive-next-token! reader)
   (let ((from (reader-from reader)))
-    (multiple-value-bind (factor negative) (archive-parse-factor! reader)
-      (if negative (archive-minus reader from factor) factor))))
-
-(defun archive-parse-power! (reader)
-  (let* ((from (reader-from reader)) (base (archive-parse-atom! reader)))
-    (if (not (eq (reader-kind reader) :power))
-        base
-        (archive-deeper (reader)
-          (archive-expect-scalar reader from base)
-          (archive-next-token! reader)
-          (let* ((place (reader-from reader)) (exponent (archive-parse-signed! reader)))
-            (archive-expect-scalar reader place exponent)
-            (archive-computed (reader from) (archive-power base exponent)))))))
+    (multiple-value-bind (exponent minus) (archive-parse-factor! reader)
+      (archive-expect-scalar reader from exponent)
+      (archive-computed (reader place)
+        (archive-power base (if minus (archive-negative exponent) exponent))))))
 
 ;; Arithmetic of expressions, lists and matrices: what is not plain is done here, element by element
 
@@ -215,7 +231,7 @@
 
 (defun archive-over (reader position e)
   (archive-expect-scalar reader position e)
-  (archive-computed (reader position) (if (reader-doubles reader) (list 'archive-over e) (archive-inverse e))))
+  (archive-computed (reader position) (if (reader-doubles reader) (list '(archive-over) e) (archive-inverse e))))
 
 (defun archive-multiply (reader places factors)
   "The product of FACTORS, of which one may be a list or a matrix."
@@ -231,7 +247,7 @@
                                  (car composite))
           (archive-multiply-scalars factors)))))
 
-(defun archive-divisor-p (factor) (and (consp factor) (eq (car factor) 'archive-over)))
+(defun archive-divisor-p (factor) (and (consp factor) (eq (caar factor) 'archive-over)))
 
 (defun archive-multiply-scalars (factors)
   "The product of FACTORS; a divisor is still a divisor where results are doubles, so that 1.0/3 is rounded once."
@@ -280,10 +296,13 @@
     (t (archive-fault reader (reader-from reader) "found ~a, expected a value" (archive-token-shown reader)))))
 
 (defun archive-parse-parenthesis! (reader)
-  (archive-deeper (reader)
-    (let ((from (reader-from reader)))
-      (archive-next-token! reader)
-      (prog1 (archive-parse-or! reader) (archive-close! reader from :close ")")))))
+  (let ((from (reader-from reader)))
+    (archive-go-deeper! reader)
+    (archive-next-token! reader)
+    (let ((value (archive-parse-expression! reader)))
+      (archive-close! reader from :close ")")
+      (decf (reader-depth reader))
+      value)))
 
 (defun archive-close! (reader opened kind sign)
   "Passes over the bracket that closes the one at OPENED."
@@ -297,16 +316,17 @@
 
 (defun archive-parse-elements! (reader kind sign)
   "The values up to the bracket of KIND, with their places: two lists."
-  (archive-deeper (reader)
-    (let ((opened (reader-from reader)) (elements '()) (places '()))
-      (unless (eq (archive-next-token! reader) kind)
-        (loop
-          (push (reader-from reader) places)
-          (push (archive-parse-or! reader) elements)
-          (unless (eq (reader-kind reader) :comma) (return))
-          (archive-next-token! reader)))
-      (archive-close! reader opened kind sign)
-      (values (nreverse elements) (nreverse places)))))
+  (let ((opened (reader-from reader)) (elements '()) (places '()))
+    (archive-go-deeper! reader)
+    (unless (eq (archive-next-token! reader) kind)
+      (loop
+        (push (reader-from reader) places)
+        (push (archive-parse-expression! reader) elements)
+        (unless (eq (reader-kind reader) :comma) (return))
+        (archive-next-token! reader)))
+    (archive-close! reader opened kind sign)
+    (decf (reader-depth reader))
+    (values (nreverse elements) (nreverse places))))
 
 (defun archive-parse-list! (reader kind sign)
   (archive-inert 'mlist (archive-parse-elements! reader kind sign)))
@@ -321,7 +341,9 @@
       (archive-fault reader from "found `~a', expected a value: the word is reserved and cannot be a name" name))
     (archive-next-token! reader)
     (cond ((plusp primes) (archive-primed-name reader name primes from))
-          ((eq (reader-kind reader) :open) (archive-parse-call! reader name from))
+          ((eq (reader-kind reader) :open)
+           (multiple-value-bind (arguments places) (archive-parse-elements! reader :close ")")
+             (archive-call reader name from arguments places)))
           ((string= name "true") t)
           ((string= name "false") nil)
           ((member (reader-kind reader) '(:quote))
@@ -349,25 +371,25 @@
     (archive-next-token! reader)
     (unless (eq (reader-kind reader) :open)
       (archive-fault reader (reader-from reader) "found ~a, expected ( after ~a" (archive-token-shown reader) name))
-    (archive-parse-call! reader name from)))
+    (multiple-value-bind (arguments places) (archive-parse-elements! reader :close ")")
+      (archive-call reader name from arguments places))))
 
 ;; Functions
 
-(defun archive-parse-call! (reader name from)
-  "The function NAME at FROM; the reader stands on its opening bracket."
-  (multiple-value-bind (arguments places) (archive-parse-elements! reader :close ")")
-    (let ((form (cdr (assoc name *archive-forms* :test #'string=)))
-          (function (assoc name *archive-functions* :test #'string=)))
-      (when (null arguments)
-        (archive-fault reader from "~a() has no arguments" name))
-      (archive-computed (reader from)
-        (cond (form (funcall form reader name from arguments places))
-              (t (unless function (archive-note-call reader name from))
-                 (loop for argument in arguments for place in places
-                       do (archive-expect-scalar reader place argument))
-                 (if function
-                     (archive-make-function reader function from arguments)
-                     (archive-inert (archive-symbol name) arguments))))))))
+(defun archive-call (reader name from arguments places)
+  "The function NAME, which stands at FROM, of ARGUMENTS, which stand at PLACES."
+  (let ((form (cdr (assoc name *archive-forms* :test #'string=)))
+        (function (assoc name *archive-functions* :test #'string=)))
+    (when (null arguments)
+      (archive-fault reader from "~a() has no arguments" name))
+    (archive-computed (reader from)
+      (cond (form (funcall form reader name from arguments places))
+            (t (unless function (archive-note-call reader name from))
+               (loop for argument in arguments for place in places
+                     do (archive-expect-scalar reader place argument))
+               (if function
+                   (archive-make-function reader function from arguments)
+                   (archive-inert (archive-symbol name) arguments)))))))
 
 (defun archive-make-function (reader function from arguments)
   (destructuring-bind (name operator number) function
@@ -480,7 +502,7 @@
     (let* ((*archive-reader* reader) (*archive-position* (reader-from reader)) (from (reader-from reader)))
       (when (eq (reader-kind reader) :end)
         (archive-fault reader from "an empty value"))
-      (let ((value (handler-case (archive-parse-or! reader)
+      (let ((value (handler-case (archive-parse-expression! reader)
                      (arithmetic-error () (archive-fault reader (reader-from reader) "a result outside the range of doubles")))))
         (unless (eq (reader-kind reader) :end)
           (archive-fault reader (reader-from reader) "found ~a, expected an operator or the end of the value"

@@ -147,25 +147,21 @@
 
 ;; Writing
 
+(defmacro archive-spelled-deeper (&body body)
+  "BODY one level of nesting deeper."
+  `(let ((*archive-spelled-depth* (1+ *archive-spelled-depth*)))
+     (when (> *archive-spelled-depth* *archive-nesting*)
+       (archive-unspellable "an expression of more than ~d levels" *archive-nesting*))
+     ,@body))
+
 (defun archive-spell-at (e level)
   "Writes E where what binds more weakly than LEVEL needs parentheses."
   (if (< (archive-expression-level e) level)
-      (archive-in-brackets "(" ")" (lambda () (archive-spell-form e)))
+      (archive-spelled-deeper
+        (archive-put "(")
+        (archive-spell-form e)
+        (archive-put ")"))
       (archive-spell-form e)))
-
-(defun archive-in-brackets (open close function)
-  (archive-nested
-   (lambda ()
-     (archive-put open)
-     (funcall function)
-     (archive-put close))))
-
-(defun archive-nested (function)
-  "Calls FUNCTION one level deeper."
-  (let ((*archive-spelled-depth* (1+ *archive-spelled-depth*)))
-    (when (> *archive-spelled-depth* *archive-nesting*)
-      (archive-unspellable "an expression of more than ~d levels" *archive-nesting*))
-    (funcall function)))
 
 (defun archive-spell-form (e)
   (cond ((archive-leads-minus-p e) (archive-spell-minus e))
@@ -187,18 +183,15 @@
              (mgeqp (archive-spell-relation " >= " e))
              (mand (archive-spell-joined " and " (cdr e) (archive-level :not)))
              (mor (archive-spell-joined " or " (cdr e) (archive-level :and)))
-             (mnot (archive-put "not ") (archive-nested (lambda () (archive-spell-at (cadr e) (archive-level :not)))))
+             (mnot (archive-put "not ") (archive-spelled-deeper (archive-spell-at (cadr e) (archive-level :not))))
              (t (archive-spell-function e))))))
 
 (defun archive-spell-minus (e)
+  "A minus, and what it stands before: a product may follow as it is, -a*b being -(a*b)."
   (archive-put "-")
-  (archive-nested
-   (lambda ()
-     (let ((positive (archive-without-minus e)))
-       ;; after the sign a product may follow as it is: -a*b is (-a)*b
-       (if (archive-leads-minus-p positive)
-           (archive-spell-at positive (archive-level :power))
-           (archive-spell-at positive (archive-level :product)))))))
+  (archive-spelled-deeper
+    (let ((positive (archive-without-minus e)))
+      (archive-spell-at positive (archive-level (if (archive-leads-minus-p positive) :power :product))))))
 
 (defun archive-spell-atom (e)
   (cond ((stringp e) (archive-spell-string e))
@@ -256,7 +249,10 @@
     (when below
       (archive-put "/")
       (if (cdr below)
-          (archive-in-brackets "(" ")" (lambda () (archive-spell-factors below)))
+          (archive-spelled-deeper
+            (archive-put "(")
+            (archive-spell-factors below)
+            (archive-put ")"))
           (archive-spell-at (car below) (archive-level :sign))))))
 
 (defun archive-spell-power (e)
@@ -266,7 +262,7 @@
           ((archive-root-p e) (archive-spell-call "sqrt" (list base)))
           (t (archive-spell-at base (archive-level :atom))
              (archive-put "^")
-             (archive-nested (lambda () (archive-spell-at exponent (archive-level :sign))))))))
+             (archive-spelled-deeper (archive-spell-at exponent (archive-level :sign)))))))
 
 (defun archive-spell-relation (sign e)
   (archive-spell-at (cadr e) (archive-level :sum))
@@ -280,12 +276,12 @@
     (archive-spell-at part level)))
 
 (defun archive-spell-bracketed (open elements close)
-  (archive-in-brackets
-   open close
-   (lambda ()
-     (loop for (element . more) on elements
-           do (archive-spell-at element (archive-level :any))
-              (when more (archive-put ", "))))))
+  (archive-spelled-deeper
+    (archive-put open)
+    (loop for (element . more) on elements
+          do (archive-spell-at element (archive-level :any))
+             (when more (archive-put ", ")))
+    (archive-put close)))
 
 (defun archive-spell-call (name arguments)
   (archive-put name)
