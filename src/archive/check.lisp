@@ -1,22 +1,24 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The entrance to descriptions: a file, a text or a list becomes a checked archive; one answer of the dialog and one
-;;; option of a call are checked by the same table.
+;;; The entrance to descriptions: a file, a text or a list becomes a checked archive; one answer
+;;; of the dialog and one option of a call are checked by the same table.
 ;;; Look first at archive-open and archive-check-list.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/description" "archive/names" "archive/sections" "archive/bytes"))
+  (core-require "archive/description" "archive/names" "archive/sections" "archive/bytes"
+                "archive/simplify"))
 
 (defun archive-check-groups (path text parts groups)
   "The archive made of GROUPS, with a warning on names that nothing declares."
   (archive-with-places
    path groups
    (lambda ()
-     (let* ((description (archive-checked groups))
+     (let* ((description (archive-with-plain-simplifier (archive-checked groups)))
             (kind (core-spelling ($core_get description '$kind))))
        (archive-warn-free-symbols kind description)
-       (make-archive :path path :text text :parts parts :groups groups :kind kind :description description)))))
+       (make-archive :path path :text text :parts parts :groups groups :kind kind
+                     :description description)))))
 
 (defun archive-of-text (path text)
   "The checked archive of TEXT, the content of the file PATH."
@@ -41,7 +43,8 @@
 
 (defun archive-check-value (key text)
   "The checked value of KEY that TEXT spells; an error otherwise."
-  (multiple-value-bind (value trouble) (archive-typed (archive-key-type key) (archive-parse-value text))
+  (multiple-value-bind (value trouble)
+    (archive-typed (archive-key-type key) (archive-parse-value text))
     (when trouble (core-error "~a" (archive-mismatch key value trouble)))
     value))
 

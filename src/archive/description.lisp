@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; From groups of statements to a checked description: kinds, sections, keys, types, defaults.
-;;; An unknown key is a warning and stays in the file; a required one that is missing is an error, which names an
-;;; unknown one that may have been meant.
+;;; From groups of statements to a checked description: kinds, sections, keys, types, defaults. An
+;;; unknown key is a warning and stays in the file; a required one that is missing is an error,
+;;; which names an unknown one that may have been meant.
 ;;; Look first at archive-checked, at the end.
 
 (in-package :maxima)
@@ -22,9 +22,11 @@
   "A key stands once in its section."
   (let ((seen '()))
     (dolist (statement (archive-group-statements group))
-      (let* ((key (archive-statement-key statement)) (first (find key seen :key #'archive-statement-key :test #'equal)))
+      (let* ((key (archive-statement-key statement))
+             (first (find key seen :key #'archive-statement-key :test #'equal)))
         (when (and key first)
-          (core-fault (archive-group-section group) key "~a stands twice~a; leave one of them out" key
+          (core-fault (archive-group-section group) key "~a stands twice~a; leave one of them out"
+                      key
                       (if (archive-statement-line first)
                           (format nil ", in line ~d and in line ~d" (archive-statement-line first)
                                   (archive-statement-line statement))
@@ -46,7 +48,8 @@
 
 (defun archive-warn-unknown (kind group)
   (dolist (statement (archive-unknown-statements kind group))
-    (core-warn "~a~a: unknown key ~a; ~a" (archive-group-section group) (archive-statement-place statement)
+    (core-warn "~a~a: unknown key ~a; ~a" (archive-group-section group)
+               (archive-statement-place statement)
                (archive-statement-key statement)
                (archive-unknown-advice kind (archive-table-word (archive-group-section group))
                                        (archive-statement-key statement)))))
@@ -56,12 +59,16 @@
   (let* ((word (archive-table-word (archive-group-section group)))
          (names (archive-key-names kind word))
          (meant (find-if (lambda (statement)
-                           (equal (archive-key-name key) (archive-nearest (archive-statement-key statement) names)))
+                           (equal (archive-key-name key)
+                                  (archive-nearest (archive-statement-key statement) names)))
                          (archive-unknown-statements kind group))))
-    (core-fault (archive-group-section group) nil "the key ~a is missing~a; ~a" (archive-key-name key) reason
+    (core-fault (archive-group-section group) nil "the key ~a is missing~a; ~a"
+                (archive-key-name key) reason
                 (if meant
-                    (format nil "is ~a~a meant for it?" (archive-statement-key meant) (archive-statement-place meant))
-                    (format nil "give ~a = ~a" (archive-key-name key) (archive-type-phrase (archive-key-type key)))))))
+                    (format nil "is ~a~a meant for it?" (archive-statement-key meant)
+                            (archive-statement-place meant))
+                    (format nil "give ~a = ~a" (archive-key-name key)
+                            (archive-type-phrase (archive-key-type key)))))))
 
 (defun archive-given-p (group name)
   (and (archive-find-statement group name) t))
@@ -69,7 +76,8 @@
 (defun archive-given-word (group name)
   "The value of the key NAME as text, or nil."
   (let ((statement (archive-find-statement group name)))
-    (and statement (symbolp (archive-statement-value statement)) (archive-statement-value statement)
+    (and statement (symbolp (archive-statement-value statement))
+         (archive-statement-value statement)
          (core-spelling (archive-statement-value statement)))))
 
 (defun archive-missing-reason (key group)
@@ -100,7 +108,8 @@
          (reason (and (not statement) (archive-missing-reason key group))))
     (cond (statement
            (list (archive-equation (core-symbol name)
-                                   (archive-converted (archive-group-section group) key (archive-statement-value statement)))))
+                                   (archive-converted (archive-group-section group) key
+                                                      (archive-statement-value statement)))))
           (reason (archive-fault-missing kind group key reason))
           ((archive-default key)
            (list (archive-equation (core-symbol name) (archive-default-value key))))
@@ -120,7 +129,8 @@
   (let ((top (or (archive-find-group groups "archive") (make-archive-group :section "archive"))))
     (archive-check-repeated top)
     (archive-key-equation nil top (archive-find-key nil "top" "dynarch"))
-    (core-spelling (third (first (archive-key-equation nil top (archive-find-key nil "top" "kind")))))))
+    (core-spelling (third (first (archive-key-equation nil top
+                                                       (archive-find-key nil "top" "kind")))))))
 
 ;;; Which sections there are
 
@@ -146,11 +156,14 @@
 (defun archive-warn-section (kind group)
   (let* ((section (archive-group-section group))
          (row (archive-section-row (archive-section-word section)))
-         (near (archive-nearest (archive-section-word section) (mapcar #'first (archive-sections-of kind)))))
+         (near (archive-nearest (archive-section-word section)
+                                (mapcar #'first (archive-sections-of kind)))))
     (core-warn "~@[line ~d: ~]unknown section [~a]; ~a" (archive-group-line group) section
-               (cond ((and row (archive-section-row-of kind section)) (format nil "it is written [~a]" (archive-heading row)))
+               (cond ((and row (archive-section-row-of kind section))
+                      (format nil "it is written [~a]" (archive-heading row)))
                      (row (format nil "it belongs to the kind ~{~a~^, ~}" (second row)))
-                     (near (format nil "did you mean [~a]?" (archive-heading (archive-section-row near))))
+                     (near (format nil "did you mean [~a]?"
+                                   (archive-heading (archive-section-row near))))
                      (t "it is not read")))))
 
 (defun archive-known-groups (kind groups)
@@ -165,17 +178,21 @@
   (loop for (group . rest) on groups
         do (let ((again (archive-find-group rest (archive-group-section group))))
              (when again
-               (core-error "section [~a] stands twice~@[, in line ~d~]~@[ and in line ~d~]; leave one of them out"
-                           (archive-group-section group) (archive-group-line group) (archive-group-line again))))))
+               (core-error "section [~a] stands twice~@[, in line ~d~]~@[ and in line ~d~]; ~
+                            leave one of them out"
+                           (archive-group-section group) (archive-group-line group)
+                           (archive-group-line again))))))
 
 (defun archive-groups-like (groups word)
-  (remove-if-not (lambda (group) (string= word (archive-section-word (archive-group-section group)))) groups))
+  (remove-if-not (lambda (group)
+                   (string= word (archive-section-word (archive-group-section group)))) groups))
 
 (defun archive-counted-groups (groups all-groups word count)
   "The groups \"WORD 1\" to \"WORD COUNT\", in this order; one too few or too many is an error."
   (dolist (group (archive-groups-like groups word))
     (when (> (archive-section-number (archive-group-section group)) count)
-      (core-fault (archive-group-section group) nil "there are ~d bodies; set bodies = ~d, or leave the section out"
+      (core-fault (archive-group-section group) nil
+                  "there are ~d bodies; set bodies = ~d, or leave the section out"
                   count (archive-section-number (archive-group-section group)))))
   (loop for k from 1 to count
         collect (let ((section (format nil "~a ~d" word k)))
@@ -185,7 +202,9 @@
 (defun archive-fault-section (section count groups)
   "The section that BODIES asks for is missing; a misspelt one is named."
   (let ((meant (archive-nearest section (mapcar #'archive-group-section groups))))
-    (core-fault "system" "bodies" "bodies = ~d, and section [~a] is missing~@[; is [~a] meant for it?~]" count section
+    (core-fault "system" "bodies"
+                "bodies = ~d, and section [~a] is missing~@[; is [~a] meant for it?~]" count
+                section
                 (and meant (not (archive-section-row (archive-section-word meant))) meant))))
 
 ;;; Rows of a circuit
@@ -194,7 +213,8 @@
   (let* ((row (archive-statement-value statement))
          (fields (if (archive-equation-p row) (third row) row)))
     (unless (archive-list-p fields)
-      (core-fault (archive-group-section group) k "row ~d must be a list such as [1, 2, L, L1, i1], found ~a" k
+      (core-fault (archive-group-section group) k
+                  "row ~d must be a list such as [1, 2, L, L1, i1], found ~a" k
                   (archive-value-shown row)))
     row))
 
@@ -208,7 +228,8 @@
 (defun archive-graph-group (rows)
   "The branches of a graph as a group."
   (make-archive-group :section "branches"
-                      :statements (mapcar (lambda (row) (make-archive-statement :value row)) (cdr rows))))
+                      :statements (mapcar (lambda (row) (make-archive-statement :value row))
+                                          (cdr rows))))
 
 (defun archive-without-graph (equations sign-given)
   "The equations of [system] with `graph' taken out; it implies sign = generator."
@@ -219,28 +240,34 @@
                       equation)))
 
 (defun archive-circuit (groups system)
-  "Two values: the equations of [system] without graph, and the group of the branches, from [branches] or from graph."
+  "Two values: the equations of [system] without graph, and the group of the branches, from
+[branches] or from graph."
   (let ((graph (find '$graph system :key #'second))
         (branches (archive-find-group groups "branches"))
         (given (archive-find-group groups "system")))
     (cond ((and graph branches)
-           (core-fault "system" "graph" "the branches stand twice, in graph and in [branches]; leave one of them out"))
-          (graph (values (archive-without-graph system (archive-given-p given "sign")) (archive-graph-group (third graph))))
+           (core-fault "system" "graph"
+                       "the branches stand twice, in graph and in [branches]; leave one of them out"))
+          (graph (values (archive-without-graph system (archive-given-p given "sign"))
+                         (archive-graph-group (third graph))))
           (branches (values system branches))
-          (t (core-fault "system" nil "a circuit has branches; add a section [branches], or the key graph")))))
+          (t (core-fault "system" nil
+                         "a circuit has branches; add a section [branches], or the key graph")))))
 
 (defun archive-circuit-equations (groups system)
   (multiple-value-bind (equations branches) (archive-circuit groups system)
     (append equations
             (list (archive-rows-equation "branches" branches)
                   (archive-rows-equation "couplings" (archive-find-group groups "couplings"))
-                  (archive-rows-equation "transformers" (archive-find-group groups "transformers"))))))
+                  (archive-rows-equation "transformers"
+                                         (archive-find-group groups "transformers"))))))
 
 ;;; The whole
 
 (defun archive-section-equation (kind group)
   "\"body 1\" = [parent = 0, ...]"
-  (archive-equation (archive-group-section group) (archive-list (archive-checked-keys kind group))))
+  (archive-equation (archive-group-section group)
+                    (archive-list (archive-checked-keys kind group))))
 
 (defun archive-mechanical-equations (kind groups all-groups system)
   (let* ((count (third (find '$bodies system :key #'second)))
@@ -264,6 +291,7 @@
            (head (remove '$dynarch (archive-checked-keys kind top) :key #'second)))
       (archive-list
        (append head
-               (cond ((string= kind "mechanical") (archive-mechanical-equations kind known groups system))
+               (cond ((string= kind "mechanical")
+                      (archive-mechanical-equations kind known groups system))
                      ((string= kind "circuit") (archive-circuit-equations known system))
                      (t system)))))))

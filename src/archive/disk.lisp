@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Files as the writer needs them: names in which no character is special, a rename that replaces, a lock, bytes that
-;;; have reached the disk. A file is never changed in place: a whole new one takes its name, or nothing happens.
+;;; Files as the writer needs them: names in which no character is special, a rename that
+;;; replaces, a lock, bytes that have reached the disk. A file is never changed in place: a whole
+;;; new one takes its name, or nothing happens.
 ;;; Look first at archive-replace-file.
 
 (in-package :maxima)
@@ -19,7 +20,8 @@
 
 (defun archive-rename (from to)
   "Gives the file FROM the name TO, replacing what is there; true when done."
-  #+sbcl (zerop (archive-c-call "rename" sb-alien:int (sb-alien:c-string from) (sb-alien:c-string to)))
+  #+sbcl
+  (zerop (archive-c-call "rename" sb-alien:int (sb-alien:c-string from) (sb-alien:c-string to)))
   #+gcl (si::rename from to)
   #-(or sbcl gcl) (rename-file from (make-pathname :type :unspecific :defaults to)))
 
@@ -38,16 +40,20 @@
   #+sbcl (multiple-value-bind (found device inode mode links uid gid) (sb-unix:unix-stat from)
            (declare (ignore device inode links))
            (when found
-             (archive-c-call "chown" sb-alien:int (sb-alien:c-string to) (sb-alien:unsigned-int uid)
+             (archive-c-call "chown" sb-alien:int (sb-alien:c-string to)
+                             (sb-alien:unsigned-int uid)
                              (sb-alien:unsigned-int gid))
-             (archive-c-call "chmod" sb-alien:int (sb-alien:c-string to) (sb-alien:unsigned-int (logand mode #o7777)))))
-  #-sbcl (archive-shell-status (format nil "chmod --reference=~a ~a 2>/dev/null" (archive-shell-quoted from)
+             (archive-c-call "chmod" sb-alien:int (sb-alien:c-string to)
+                             (sb-alien:unsigned-int (logand mode #o7777)))))
+  #-sbcl (archive-shell-status (format nil "chmod --reference=~a ~a 2>/dev/null"
+                                       (archive-shell-quoted from)
                                        (archive-shell-quoted to))))
 
 (defun archive-sync (stream)
   "What was written to STREAM is on the disk when this returns."
   (finish-output stream)
-  #+sbcl (unless (zerop (archive-c-call "fsync" sb-alien:int (sb-alien:int (sb-sys:fd-stream-fd stream))))
+  #+sbcl (unless (zerop (archive-c-call "fsync" sb-alien:int
+                                        (sb-alien:int (sb-sys:fd-stream-fd stream))))
            (error "the disk does not take it")))
 
 (defun archive-process-number ()
@@ -76,7 +82,8 @@
 
 ;; A lock on the folder, so that writers take turns; the system releases it when a process dies
 
-(defparameter *archive-lock-tries* 200 "Tries, twenty in a second, before a writer goes on without the lock.")
+(defparameter *archive-lock-tries* 200
+  "Tries, twenty in a second, before a writer goes on without the lock.")
 
 (defvar *archive-locked* nil "True while this process has the lock on the folder it writes in.")
 
@@ -84,12 +91,14 @@
 (defun archive-flock (handle)
   "Tries for the lock on the open folder HANDLE; true when it is ours."
   (loop repeat *archive-lock-tries*
-        thereis (zerop (archive-c-call "flock" sb-alien:int (sb-alien:int handle) (sb-alien:int 6)))
+        thereis (zerop (archive-c-call "flock" sb-alien:int (sb-alien:int handle)
+                                       (sb-alien:int 6)))
         do (sleep 0.05)))
 
 (defun archive-lock (folder)
   "Two values: a handle of FOLDER to close afterwards, or nil, and whether its lock is ours."
-  #+sbcl (let ((handle (archive-c-call "open" sb-alien:int (sb-alien:c-string (if (string= folder "") "." folder))
+  #+sbcl (let ((handle (archive-c-call "open" sb-alien:int
+                                       (sb-alien:c-string (if (string= folder "") "." folder))
                                        (sb-alien:int #o2000000))))
            (if (minusp handle) (values nil nil) (values handle (archive-flock handle))))
   #-sbcl (progn folder (values nil nil)))
@@ -112,11 +121,13 @@
 (defvar *archive-drafts* 0 "Drafts written so far.")
 
 (defun archive-draft-name (name)
-  "A name for a draft in the folder of NAME: always the same under the lock, so that the draft of a process that died is
+  "A name for a draft in the folder of NAME: always the same under the lock, so that the draft of
+a process that died is
 taken away by the next one; else one that no other process has."
   (if *archive-locked*
       (format nil "~a.dynarch-draft" (archive-folder name))
-      (format nil "~a.dynarch-~d-~d" (archive-folder name) (archive-process-number) (incf *archive-drafts*))))
+      (format nil "~a.dynarch-~d-~d" (archive-folder name) (archive-process-number)
+              (incf *archive-drafts*))))
 
 (defmacro archive-or-fault (text &body body)
   "BODY; an error in it becomes one that says TEXT."
@@ -124,9 +135,11 @@ taken away by the next one; else one that no other process has."
      (error () (core-error "~a" ,text))))
 
 (defun archive-write-draft (draft bytes)
-  "Writes BYTES to the new file DRAFT and makes sure that they arrived: not every Lisp reports a full disk."
+  "Writes BYTES to the new file DRAFT and makes sure that they arrived: not every Lisp reports a
+full disk."
   (let ((out (archive-or-fault "no file can be made in its folder"
-               (open (archive-native-path draft) :direction :output :element-type '(unsigned-byte 8)
+               (open (archive-native-path draft)
+                     :direction :output :element-type '(unsigned-byte 8)
                                                  :if-exists :error :if-does-not-exist :create))))
     (archive-or-fault "the disk is full, or a limit on file sizes is reached"
       (let ((written nil))
@@ -139,7 +152,8 @@ taken away by the next one; else one that no other process has."
   #-gcl (and (probe-file (archive-native-path name)) t))
 
 (defun archive-put-file (name bytes unchanged-p)
-  "Gives the file NAME the content BYTES by way of a draft; nil, and no change, when UNCHANGED-P says no at the end."
+  "Gives the file NAME the content BYTES by way of a draft; nil, and no change, when UNCHANGED-P
+says no at the end."
   (let ((draft (archive-draft-name name)) (done nil))
     (archive-unlink draft)
     (unwind-protect
@@ -152,7 +166,8 @@ taken away by the next one; else one that no other process has."
       (unless done (archive-unlink draft)))))
 
 (defun archive-replace-file (name bytes &optional (unchanged-p (constantly t)))
-  "The file NAME has BYTES as its content afterwards, or is what it was: nil when UNCHANGED-P said no, else an error."
+  "The file NAME has BYTES as its content afterwards, or is what it was: nil when UNCHANGED-P
+said no, else an error."
   (archive-ignore-size-limit)
   (when (and (archive-exists-p name) (not (archive-may-write-p name)))
     (core-error "it is read-only"))

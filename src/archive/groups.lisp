@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; A description before it is checked: groups of statements, from the sections of a file or from a description list.
-;;; A group is a section, a statement one key with its value, or one row; both know their lines where there is a file.
+;;; A description before it is checked: groups of statements, from the sections of a file or from
+;;; a description list. A group is a section, a statement one key with its value, or one row; both
+;;; know their lines where there is a file.
 
 (in-package :maxima)
 
@@ -34,24 +35,28 @@
   (find section groups :key #'archive-group-section :test #'string=))
 
 (defun archive-find-statement (group key)
-  (and group (find key (archive-group-statements group) :key #'archive-statement-key :test #'equal)))
+  (and group
+       (find key (archive-group-statements group) :key #'archive-statement-key :test #'equal)))
 
 (defun archive-find-row (group key)
   "The statement of the row with the number KEY, or with the label or value KEY."
   (and group key
        (if (integerp key)
            (nth (1- key) (archive-group-statements group))
-           (find-if (lambda (statement) (archive-row-called-p (archive-statement-value statement) key))
+           (find-if (lambda (statement)
+                      (archive-row-called-p (archive-statement-value statement) key))
                     (archive-group-statements group)))))
 
 (defun archive-row-called-p (row name)
   "Whether NAME is the label or a field of ROW."
   (let ((symbol (core-symbol name)))
     (and (consp row)
-         (if (archive-equation-p row) (eq (second row) symbol) (and (member symbol (cdr row)) t)))))
+         (if (archive-equation-p row) (eq (second row) symbol)
+             (and (member symbol (cdr row)) t)))))
 
 (defun archive-line (groups section key)
-  "The line of KEY (a name, or the number or label of a row) in SECTION, or of the section's header, or nil."
+  "The line of KEY (a name, or the number or label of a row) in SECTION, or of the section's
+header, or nil."
   (let* ((group (archive-find-group groups section))
          (statement (or (archive-find-statement group key)
                         (and (archive-row-section-p section) (archive-find-row group key)))))
@@ -73,7 +78,8 @@
 (defun archive-with-places (path groups function)
   "Calls FUNCTION while faults find their places in GROUPS of the file PATH."
   (let ((*core-place* (lambda (section key)
-                        (archive-line-place path (archive-line groups section (archive-key-text key))))))
+                        (archive-line-place path (archive-line groups section
+                                                               (archive-key-text key))))))
     (funcall function)))
 
 (defun archive-statement-place (statement)
@@ -83,16 +89,17 @@
 
 ;;; From the sheet of a file
 
+(defun archive-entry-statement (entry)
+  (make-archive-statement :key (entry-key entry) :line (entry-line entry)
+                          :value (archive-entry-parsed entry)))
+
 (defun archive-groups-of-sheet (sheet)
   "The groups of all sections of SHEET but results."
   (loop for section in (sheet-sections sheet)
         unless (archive-result-section-p section)
           collect (make-archive-group
                    :section (section-name section) :line (section-line section)
-                   :statements (mapcar (lambda (entry)
-                                         (make-archive-statement :key (entry-key entry) :line (entry-line entry)
-                                                                 :value (archive-entry-parsed entry)))
-                                       (section-entries section)))))
+                   :statements (mapcar #'archive-entry-statement (section-entries section)))))
 
 (defparameter *archive-words-of-keys*
   '(("rotor" "momentum" "speed" "control") ("algebra" "so" "e"))
@@ -102,7 +109,8 @@
   "Names of the functions that the archive may call: the keys `functions' and `laws' name them."
   (let ((system (archive-find-section sheet "system")))
     (flet ((names (key)
-             (let* ((entry (and system (archive-find-entry system key))) (value (and entry (entry-value entry))))
+             (let* ((entry (and system (archive-find-entry system key)))
+                    (value (and entry (entry-value entry))))
                (if (archive-list-p value) (cdr value) '()))))
       (append (mapcar #'core-spelling (remove-if-not #'archive-symbol-p (names "functions")))
               (loop for law in (names "laws")
@@ -116,7 +124,8 @@
       (unless (archive-result-section-p section)
         (dolist (entry (section-entries section))
           (archive-check-functions (entry-calls entry)
-                                   (append (cdr (assoc (entry-key entry) *archive-words-of-keys* :test #'equal)) known)
+                                   (append (cdr (assoc (entry-key entry) *archive-words-of-keys*
+                                                       :test #'equal)) known)
                                    (sheet-file sheet)))))))
 
 ;;; From a description list
@@ -133,13 +142,15 @@
 (defun archive-list-key (equation)
   "The key of an item of a description list, as text."
   (unless (archive-equation-p equation)
-    (core-error "a description is a list of equations such as mass = m, found ~a" (archive-value-shown equation)))
+    (core-error "a description is a list of equations such as mass = m, found ~a"
+                (archive-value-shown equation)))
   (let ((left (second equation)))
     (cond ((stringp left) left)
           ((eq left $functions) "functions")  ; always bound in Maxima, and so is the next
           ((eq left $values) "values")
           ((archive-symbol-p left) (archive-key-text left))
-          (t (core-error "a description is a list of key = value, found ~a; if the key has a value in the session, quote it"
+          (t (core-error "a description is a list of key = value, found ~a; ~
+                          if the key has a value in the session, quote it"
                          (archive-value-shown equation))))))
 
 (defun archive-list-statement (equation)
@@ -187,6 +198,7 @@
               ((member name (archive-top-keys) :test #'string=)
                (push (archive-list-statement equation) top))
               (t (push (archive-list-statement equation) system)))))
-    (list* (make-archive-group :section "archive" :statements (archive-with-version (nreverse top)))
+    (list* (make-archive-group :section "archive"
+                               :statements (archive-with-version (nreverse top)))
            (make-archive-group :section "system" :statements (nreverse system))
            (nreverse groups))))

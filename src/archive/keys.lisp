@@ -1,8 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The table of keys: every section and key of an archive, once, with kind of system, type, default, help and question.
-;;; The check, the dialog, the messages and the table in doc/archive.md all come from here; plain data, no Maxima in it.
-;;; A row is (name type default help question). The default is text as it would stand in the archive; nil where the key may
-;;; be absent; :required; (:when key value) required if that key has that value; (:unless key) required if that is absent.
+;;; The table of keys: every section and key of an archive, once, with kind of system, type,
+;;; default, help and question. The check, the dialog, the messages and the table in
+;;; doc/archive.md all come from here; plain data, no Maxima in it. A row is (name type default
+;;; help question). The default is text as it would stand in the archive; nil where the key may be
+;;; absent; :required; (:when key value) required if that key has that value; (:unless key)
+;;; required if that is absent.
 
 (in-package :maxima)
 
@@ -43,7 +45,8 @@
     (:expressions archive-as-expressions "a list of expressions")
     (:vector archive-as-vector "a list of three expressions")
     (:vanishing archive-as-vanishing "a list of equations, such as [x^2 + y^2 - l^2 = 0]")
-    (:rates archive-as-rates "a list of equations solved for the velocities, such as [p' = q, q' = -p]")
+    (:rates archive-as-rates
+            "a list of equations solved for the velocities, such as [p' = q, q' = -p]")
     (:field archive-as-field "none, constant or newton")
     (:sign archive-as-sign "passive or generator")
     (:parent archive-as-parent "0, the number of a body, or the name of a frame")
@@ -57,7 +60,8 @@
     (:node archive-as-node "an integer or a name")
     (:states archive-as-states "a list of states by label, such as [i1 = L1, u3 = C3]")
     (:graph archive-as-graph "a list of branches, such as {{{1, 2}, L1}, {{2, 3}, C1, u1}}")
-    (:skew archive-as-skew "a square matrix with {x_j, x_i} = -{x_i, x_j}, such as [[0, 1], [-1, 0]]")
+    (:skew archive-as-skew
+           "a square matrix with {x_j, x_i} = -{x_i, x_j}, such as [[0, 1], [-1, 0]]")
     (:algebra archive-as-algebra "so(4), e(3) or so(3,1)"))
   "Type, the function of types.lisp that checks a value of it, and what such a value is.")
 
@@ -89,56 +93,77 @@
      ("field" :field "none" "field of force" "Field of force")
      ("gravity" :vector (:when "field" "constant") "acceleration of gravity, in axes 0"
       "Acceleration of gravity, in axes 0")
-     ("nu" :expression (:when "field" "newton") "strength of the Newtonian centre, its gravitational parameter"
+     ("nu" :expression (:when "field" "newton")
+      "strength of the Newtonian centre, its gravitational parameter"
       "Strength nu of the attracting centre")
      ("distance" :expression (:when "field" "newton") "distance from the attracting centre to O_1"
       "Distance from the attracting centre to O_1")
-     ("direction" :vector (:when "field" "newton") "unit vector from the attracting centre to O_1, in axes 0"
+     ("direction" :vector (:when "field" "newton")
+      "unit vector from the attracting centre to O_1, in axes 0"
       "Unit vector from the attracting centre to O_1, in axes 0")
-     ("force_function" :expression "0" "added to U, the force function of the field" "Further force function"))
+     ("force_function" :expression "0"
+      "added to U, the force function of the field" "Further force function"))
 
     (("system" ("lagrangian"))
-     ("lagrangian" :expression (:unless "hamiltonian") "Lagrange's function of coordinates and velocities"
+     ("lagrangian" :expression (:unless "hamiltonian")
+      "Lagrange's function of coordinates and velocities"
       "Lagrangian")
-     ("hamiltonian" :expression nil "Hamilton's function of coordinates and momenta, instead; it needs `momenta`"
+     ("hamiltonian" :expression nil
+      "Hamilton's function of coordinates and momenta, instead; it needs `momenta`"
       "Hamiltonian"))
 
     (("system" ("mechanical" "lagrangian"))
      ("rayleigh" :expression "0" "Rayleigh's function of dissipation" "Rayleigh's function")
-     ("forces" :expressions "[]" "generalized forces Q_i, in the order of the coordinates" "Generalized forces")
-     ("momenta" :assignments "[]" "names or values of momenta by coordinate, such as [phi = p]; some or all"
+     ("forces" :expressions "[]"
+      "generalized forces Q_i, in the order of the coordinates" "Generalized forces")
+     ("momenta" :assignments "[]"
+      "names or values of momenta by coordinate, such as [phi = p]; some or all"
       "Momenta by coordinate")
      ("constraints" :vanishing "[]" "holonomic constraints" "Holonomic constraints")
-     ("nonholonomic" :vanishing "[]" "constraints linear in the velocities" "Nonholonomic constraints"))
+     ("nonholonomic" :vanishing "[]"
+      "constraints linear in the velocities" "Nonholonomic constraints"))
 
     (("system" ("circuit"))
-     ("sign" :sign "passive" "sign convention of the branches; a graph implies generator" "Sign convention")
-     ("graph" :graph nil "the branches as a list of pairs of nodes, instead of [branches]" "Graph as a list")
-     ("states" :states "[]" "names of currents and voltages, by label" "Names of states, by label")
+     ("sign" :sign "passive"
+      "sign convention of the branches; a graph implies generator" "Sign convention")
+     ("graph" :graph nil
+      "the branches as a list of pairs of nodes, instead of [branches]" "Graph as a list")
+     ("states" :states "[]"
+      "names of currents and voltages, by label" "Names of states, by label")
      ("potential" :expression nil "a given mixed potential" "Mixed potential, if it is given")
      ("datum" :node nil "node of zero potential; the first node of the first branch unless given"
       "Node of zero potential")
-     ("tree" :names nil "labels of the branches of the tree, if the user chooses it" "Labels of the tree's branches"))
+     ("tree" :names nil
+      "labels of the branches of the tree, if the user chooses it"
+      "Labels of the tree's branches"))
 
     (("system" ("equations"))
      ("equations" :rates :required "equations of motion" "Equations")
      ("integrals" :assignments "[]" "known first integrals, by name" "First integrals")
-     ("level" :vanishing "[]" "the integrals hold only where these vanish" "Where the integrals hold")
-     ("multipliers" :names nil "names of the multipliers mu_j; mu0, mu1, ... unless given" "Names of the multipliers"))
+     ("level" :vanishing "[]"
+      "the integrals hold only where these vanish" "Where the integrals hold")
+     ("multipliers" :names nil
+      "names of the multipliers mu_j; mu0, mu1, ... unless given" "Names of the multipliers"))
     (("system" ("poisson"))
-     ("bracket" :skew (:unless "algebra") "the matrix of brackets {x_i, x_j}" "Matrix of brackets")
-     ("algebra" :algebra nil "a Lie algebra instead; its variables are M1, M2, M3, g1, g2, g3 in this order"
+     ("bracket" :skew (:unless "algebra")
+      "the matrix of brackets {x_i, x_j}" "Matrix of brackets")
+     ("algebra" :algebra nil
+      "a Lie algebra instead; its variables are M1, M2, M3, g1, g2, g3 in this order"
       "Lie algebra")
      ("hamiltonian" :expression :required "Hamilton's function" "Hamiltonian"))
     (("system" ("lagrangian" "poisson"))
      ("integrals" :assignments "[]" "known first integrals, by name" "First integrals"))
 
     (("system" :all)
-     ("values" :numbers "[]" "numbers for runs; symbolic functions ignore them" "Numbers for runs")
-     ("where" :assignments "[]" "special case for the analysis, put into the equations after they are formed"
+     ("values" :numbers "[]"
+      "numbers for runs; symbolic functions ignore them" "Numbers for runs")
+     ("where" :assignments "[]"
+      "special case for the analysis, put into the equations after they are formed"
       "Special case for the analysis")
-     ("abbreviations" :assignments "[]" "names for printing results, such as [rho = 4*g1*s1^2]" "Abbreviations")
-     ("unknowns" :names nil "what equilibria and stationary motions are solved for; the rest stays free"
+     ("abbreviations" :assignments "[]"
+      "names for printing results, such as [rho = 4*g1*s1^2]" "Abbreviations")
+     ("unknowns" :names nil
+      "what equilibria and stationary motions are solved for; the rest stays free"
       "What is solved for")
      ("solution" :motion nil "the motion to be judged; velocities and momenta not named are 0"
       "Motion to be judged")
@@ -147,16 +172,23 @@
 
     (("body" ("mechanical"))
      ("parent" :parent "0" "body or frame that carries this body; 0 is the fixed axes" "Parent")
-     ("axes" :axes "[]" "axes of the turns in their order; [] for a body that only slides" "Axes of the turns")
-     ("angles" :expressions "[]" "angles of the turns, right-handed, one for each axis" "Angles of the turns")
+     ("axes" :axes "[]"
+      "axes of the turns in their order; [] for a body that only slides" "Axes of the turns")
+     ("angles" :expressions "[]"
+      "angles of the turns, right-handed, one for each axis" "Angles of the turns")
      ("joint" :vector "[0, 0, 0]" "from the parent's origin to this body's, in the parent's axes"
       "Position of the joint, in the parent's axes")
-     ("velocity" :velocity "auto" "velocity of the joint relative to the parent, in the parent's axes; auto is d/dt of joint"
+     ("velocity" :velocity "auto"
+      "velocity of the joint relative to the parent, in the parent's axes; auto is d/dt of joint"
       "Velocity of the joint, in the parent's axes")
-     ("centre" :vector "[0, 0, 0]" "centre of mass, in the body's axes" "Centre of mass, in the body's axes")
+     ("centre" :vector "[0, 0, 0]"
+      "centre of mass, in the body's axes" "Centre of mass, in the body's axes")
      ("mass" :expression :required "mass" "Mass")
-     ("inertia" :inertia nil "inertia about the joint; a point mass at the centre unless given" "Inertia about the joint")
-     ("inertia_centre" :inertia nil "inertia about the centre of mass, instead" "Inertia about the centre of mass")
+     ("inertia" :inertia nil
+      "inertia about the joint; a point mass at the centre unless given"
+      "Inertia about the joint")
+     ("inertia_centre" :inertia nil
+      "inertia about the centre of mass, instead" "Inertia about the centre of mass")
      ("momentum" :vector nil "constant relative momentum of rotors inside, in the body's axes"
       "Constant momentum of rotors inside")
      ("own_spin" :spin nil "turn about a body axis that enters omega but not the axes" "Own spin")
@@ -168,27 +200,34 @@
      ("angles" :expressions "[]" "angles of the turns, one for each axis" "Angles of the turns")
      ("joint" :vector "[0, 0, 0]" "from the parent's origin to this one, in the parent's axes"
       "Position of the origin, in the parent's axes")
-     ("velocity" :velocity "auto" "velocity of the origin relative to the parent; auto is d/dt of joint"
+     ("velocity" :velocity "auto"
+      "velocity of the origin relative to the parent; auto is d/dt of joint"
       "Velocity of the origin, in the parent's axes"))
 
     (("spring" ("mechanical"))
-     ("between" :pair (:unless "angle") "the two bodies; 0 is the fixed axes" "Bodies that it joins")
-     ("points" :points "[[0, 0, 0], [0, 0, 0]]" "its ends, each in the axes of its body" "Ends, in the bodies' axes")
-     ("angle" :expression nil "the angle it acts on, for a spring that turns" "Angle that it acts on")
+     ("between" :pair (:unless "angle")
+      "the two bodies; 0 is the fixed axes" "Bodies that it joins")
+     ("points" :points "[[0, 0, 0], [0, 0, 0]]"
+      "its ends, each in the axes of its body" "Ends, in the bodies' axes")
+     ("angle" :expression nil
+      "the angle it acts on, for a spring that turns" "Angle that it acts on")
      ("stiffness" :expression "0" "stiffness" "Stiffness")
      ("length" :expression "0" "length at rest" "Length at rest")
      ("rest" :expression "0" "angle at rest" "Angle at rest")
-     ("damping" :expression "0" "adds damping*(rate of length or angle)^2/2 to Rayleigh's function" "Damping"))
+     ("damping" :expression "0"
+      "adds damping*(rate of length or angle)^2/2 to Rayleigh's function" "Damping"))
 
     (("force" ("mechanical"))
      ("body" :parent :required "the body it acts on" "Body that it acts on")
      ("point" :vector "[0, 0, 0]" "its point, in the body's axes" "Point, in the body's axes")
      ("vector" :vector :required "its components" "Components")
-     ("axes" :parent "0" "the axes of its components: 0, a body, a frame" "Axes of its components"))
+     ("axes" :parent "0"
+      "the axes of its components: 0, a body, a frame" "Axes of its components"))
     (("torque" ("mechanical"))
      ("body" :parent :required "the body it acts on" "Body that it acts on")
      ("vector" :vector :required "its components" "Components")
-     ("axes" :parent "0" "the axes of its components: 0, a body, a frame" "Axes of its components"))))
+     ("axes" :parent "0"
+      "the axes of its components: 0, a body, a frame" "Axes of its components"))))
 
 ;; The table as records
 
@@ -204,7 +243,8 @@
   (or (eq kinds :all) (member kind kinds :test #'string=)))
 
 (defun archive-keys (kind section)
-  "The keys of SECTION (its first word) in archives of KIND, in the order in which they are asked."
+  "The keys of SECTION (its first word) in archives of KIND, in the order in which they are
+asked."
   (remove-if-not (lambda (key) (and (string= section (archive-key-section key))
                                     (archive-serves-p (archive-key-kinds key) kind)))
                  *archive-keys*))
@@ -247,7 +287,8 @@
 ;; The nearest known name
 
 (defun archive-edit-distance (a b)
-  "How many letters must be put in, left out, exchanged or swapped with their neighbour to make B of A."
+  "How many letters must be put in, left out, exchanged or swapped with their neighbour to make B
+of A."
   (let* ((m (length a)) (n (length b)) (d (make-array (list (1+ m) (1+ n)) :initial-element 0)))
     (dotimes (i (1+ m)) (setf (aref d i 0) i))
     (dotimes (j (1+ n)) (setf (aref d 0 j) j))
@@ -256,7 +297,8 @@
                    do (setf (aref d i j)
                             (min (1+ (aref d (1- i) j))
                                  (1+ (aref d i (1- j)))
-                                 (+ (aref d (1- i) (1- j)) (if (char-equal (char a (1- i)) (char b (1- j))) 0 1))
+                                 (+ (aref d (1- i) (1- j))
+                                    (if (char-equal (char a (1- i)) (char b (1- j))) 0 1))
                                  (archive-swap-distance a b d i j)))))
     (aref d m n)))
 
@@ -269,7 +311,8 @@
       (+ i j)))
 
 (defun archive-nearest (name known)
-  "The one of the KNOWN names that NAME is most likely meant to be, or nil. Long names only: 200 letters are no misprint."
+  "The one of the KNOWN names that NAME is most likely meant to be, or nil. Long names only: 200
+letters are no misprint."
   (when (<= (length name) 40)
     (let ((best nil) (least (1+ (max 1 (floor (length name) 3)))))
       (dolist (candidate known best)
@@ -287,15 +330,18 @@
     (cond ((null default) "")
           ((eq default :required) "required")
           ((stringp default) (format nil "`~a`" default))
-          ((eq (first default) :when) (format nil "required if `~a = ~a`" (second default) (third default)))
+          ((eq (first default) :when)
+           (format nil "required if `~a = ~a`" (second default) (third default)))
           (t (format nil "required without `~a`" (second default))))))
 
 (defun archive-print-keys-table (stream)
   "The table in markdown, a part for each section."
   (dolist (section *archive-sections*)
     (format stream "### ~a~%~%~a~%~%"
-            (if (string= (first section) "top") "Before the first header" (format nil "`[~a]`" (archive-heading section)))
-            (if (eq (third section) :rows) (format nil "Rows: `~a`" (fourth section)) (archive-capital (fourth section))))
+            (if (string= (first section) "top") "Before the first header"
+                (format nil "`[~a]`" (archive-heading section)))
+            (if (eq (third section) :rows) (format nil "Rows: `~a`" (fourth section))
+                (archive-capital (fourth section))))
     (unless (eq (third section) :rows) (archive-print-section-table (first section) stream))))
 
 (defun archive-capital (text)
@@ -311,6 +357,8 @@
   (format stream "| key | kinds | value | default | meaning |~%|---|---|---|---|---|~%")
   (dolist (key *archive-keys*)
     (when (string= section (archive-key-section key))
-      (format stream "| `~a` | ~a | ~a | ~a | ~a |~%" (archive-key-name key) (archive-kinds-text (archive-key-kinds key))
-              (archive-type-phrase (archive-key-type key)) (archive-default-text key) (archive-key-help key))))
+      (format stream "| `~a` | ~a | ~a | ~a | ~a |~%" (archive-key-name key)
+              (archive-kinds-text (archive-key-kinds key))
+              (archive-type-phrase (archive-key-type key)) (archive-default-text key)
+              (archive-key-help key))))
   (terpri stream))

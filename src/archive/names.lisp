@@ -1,14 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Names of a description: which are declared, which are free, and what is assumed of the parameters.
-;;; A name that nothing declares is a free symbol; one warning lists them all, since a misprint looks just so.
-;;; A key's type says what its value declares (left sides, lists of names) and what it uses.
+;;; Names of a description: which are declared, which are free, and what is assumed of the
+;;; parameters. A name that nothing declares is a free symbol; one warning lists them all, since a
+;;; misprint looks just so. A key's type says what its value declares (left sides, lists of names)
+;;; and what it uses.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/keys" "archive/types"))
 
-(defparameter *archive-row-value-field* 3 "Place of the value in a branch's fields: n1, n2, type, value.")
+(defparameter *archive-row-value-field* 3
+  "Place of the value in a branch's fields: n1, n2, type, value.")
 
 (defun archive-lefts (equations) (mapcar #'second (cdr equations)))
 
@@ -55,10 +57,13 @@
     (t '())))
 
 (defun archive-momentum-names (description)
-  "Names p_q that momenta have unless the user names them, and names of what the kind itself brings."
+  "Names p_q that momenta have unless the user names them, and names of what the kind itself
+brings."
   (append (mapcar (lambda (q) (core-symbol (format nil "p_~a" (core-spelling q))))
-                  (remove-if-not #'archive-symbol-p (cdr ($core_get description '$coordinates nil))))
-          (archive-used-names (archive-list (archive-rights ($core_get description '$momenta nil))))
+                  (remove-if-not #'archive-symbol-p
+                                 (cdr ($core_get description '$coordinates nil))))
+          (archive-used-names (archive-list (archive-rights ($core_get description '$momenta
+                                                                       nil))))
           (when ($core_get description '$algebra nil)
             (mapcar #'core-symbol '("M1" "M2" "M3" "g1" "g2" "g3")))))
 
@@ -82,10 +87,16 @@
 
 (defun archive-row-states (row)
   "The state that the row names, and the names it would have by default."
-  (append (remove-if-not #'archive-symbol-p (nthcdr (1+ *archive-row-value-field*) (archive-row-fields row)))
+  (append (remove-if-not #'archive-symbol-p
+                         (nthcdr (1+ *archive-row-value-field*) (archive-row-fields row)))
           (loop for label in (archive-row-labels row)
                 append (list (core-symbol (format nil "i_~a" (core-spelling label)))
                              (core-symbol (format nil "u_~a" (core-spelling label)))))))
+
+(defun archive-branch-value (row)
+  "The value of a branch, in a list; nil where it has none."
+  (let ((fields (nthcdr *archive-row-value-field* (archive-row-fields row))))
+    (and fields (list (first fields)))))
 
 (defun archive-branch-names (description)
   "Two values: names that the branches declare, and names that their values use."
@@ -93,10 +104,10 @@
     (values (append (mapcan #'archive-row-states rows)
                     (loop for row in rows when (archive-equation-p row) collect (second row)))
             (archive-used-names
-             (archive-list (append (loop for row in rows
-                                         append (remove nil (list (nth *archive-row-value-field* (archive-row-fields row)))))
+             (archive-list (append (mapcan #'archive-branch-value rows)
                                    (archive-last-fields ($core_get description '$couplings nil))
-                                   (archive-last-fields ($core_get description '$transformers nil))))))))
+                                   (archive-last-fields
+                                    ($core_get description '$transformers nil))))))))
 
 (defun archive-last-fields (rows)
   "The values of couplings and transformers: M, the right side of k = 0.9, the ratio."
@@ -123,7 +134,8 @@
                             (archive-rotor-angles description)
                             (archive-map-keys #'archive-declared-by kind description)))
           (used (append branch-uses (archive-map-keys #'archive-used-by kind description))))
-      (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared))) #'string<))))
+      (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared)))
+            #'string<))))
 
 (defun archive-warn-free-symbols (kind description)
   (let ((free (archive-free-symbols kind description)))

@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Sections [result NAME]: a value or a record as text, and back. `from' is the digest of what the result was computed
-;;; from, `own' that of its value: the first tells a stale result, the second one edited by hand. A result edited by hand
-;;; is used as it stands; one that is stale as well is an error, because nobody can tell which of the two is meant.
+;;; Sections [result NAME]: a value or a record as text, and back. `from' is the digest of what
+;;; the result was computed from, `own' that of its value: the first tells a stale result, the
+;;; second one edited by hand. A result edited by hand is used as it stands; one that is stale as
+;;; well is an error, because nobody can tell which of the two is meant.
 ;;; Look first at archive-result, which reads, and archive-result-text, which writes.
 
 (in-package :maxima)
@@ -23,7 +24,8 @@
                                 collect (format nil "~a=~a" key (archive-bare-text text))))))
 
 (defun archive-counts-p (section key kind keys)
-  "Whether KEY of SECTION counts among KEYS; \"*\" stands for all that makes the structure of the system."
+  "Whether KEY of SECTION counts among KEYS; \"*\" stands for all that makes the structure of the
+system."
   (let ((whole (member "*" keys :test #'string=)))
     (cond ((null key) whole)
           ((not (archive-find-key kind (archive-table-word section) key)) nil)
@@ -33,7 +35,8 @@
           (whole (not (member key *archive-analysis-keys* :test #'string=))))))
 
 (defun archive-counted-lines (archive keys)
-  "The entries of the description that count, as the writer spells them, in the order of the file."
+  "The entries of the description that count, as the writer spells them, in the order of the
+file."
   (loop for group in (archive-groups archive)
         for section = (archive-group-section group)
         append (loop for statement in (archive-group-statements group)
@@ -43,7 +46,8 @@
                                        (archive-spelled (archive-statement-value statement))))))
 
 (defun archive-from-digest (archive keys extras)
-  "The digest of what a result depends on: KEYS of the description, and EXTRAS, arguments and options as texts."
+  "The digest of what a result depends on: KEYS of the description, and EXTRAS, arguments and
+options as texts."
   (archive-digest (format nil "~{~a~%~}" (append (archive-counted-lines archive keys) extras))))
 
 ;; Reading
@@ -78,8 +82,10 @@
     (and own (not (equal own (archive-stated-digest section "own"))) own)))
 
 (defun archive-check-result-calls (archive entry)
-  "Functions in a result are the user's own, or such that the derivation brought; Maxima's own commands are none."
-  (let ((functions (mapcar #'core-spelling (cdr ($core_get (archive-description archive) '$functions '((mlist)))))))
+  "Functions in a result are the user's own, or such that the derivation brought; Maxima's own
+commands are none."
+  (let ((functions (mapcar #'core-spelling (cdr ($core_get (archive-description archive)
+                                                           '$functions '((mlist)))))))
     (loop for call in (entry-calls entry)
           unless (or (member (first call) functions :test #'string=)
                      (not (archive-maxima-function-p (first call))))
@@ -105,12 +111,13 @@
                               entries)))))
 
 (defun archive-fault-edited-and-stale (archive name section)
-  (core-error "~a:~d: [result ~a] was edited by hand, and what it was computed from has changed since; delete the ~
-               section, or give it back its old value"
+  (core-error "~a:~d: [result ~a] was edited by hand, and what it was computed from has changed ~
+               since; delete the section, or give it back its old value"
               (archive-path archive) (section-line section) name))
 
 (defun archive-result (archive name from)
-  "Two values: the stored result NAME, and :fresh, :edited, :stale or :absent. FROM is the digest it should have."
+  "Two values: the stored result NAME, and :fresh, :edited, :stale or :absent. FROM is the digest
+it should have."
   (let* ((section (archive-result-section archive name))
          (edited (and section (archive-edited-digest archive name)))
          (stated (and section (archive-stated-digest section "from")))
@@ -119,7 +126,8 @@
           ((null (archive-value-entries section)) (values nil :stale))
           ((and edited stale) (archive-fault-edited-and-stale archive name section))
           (stale (values nil :stale))
-          (t (values (archive-section-value archive name section) (if (or edited (null stated)) :edited :fresh))))))
+          (t (values (archive-section-value archive name section)
+                     (if (or edited (null stated)) :edited :fresh))))))
 
 ;; Writing
 
@@ -131,20 +139,24 @@
        (let ((names (mapcar #'core-spelling (archive-lefts value))))
          (and (every #'archive-name-p names)
               (= (length names) (length (remove-duplicates names :test #'string=)))
-              (notany (lambda (name) (member name (cons "value" *archive-result-keys*) :test #'string=)) names)))))
+              (notany (lambda (name) (member name (cons "value" *archive-result-keys*)
+                                             :test #'string=)) names)))))
 
 (defun archive-wrapped (open items close indent)
-  "ITEMS, texts, in brackets: on one line where they fit, else a line for each, so that a person can read them."
+  "ITEMS, texts, in brackets: on one line where they fit, else a line for each, so that a person
+can read them."
   (let ((line (format nil "~a~{~a~^, ~}~a" open items close)))
     (if (<= (+ indent (length line)) *archive-result-width*)
         line
         (format nil (format nil "~~a~~{~~a~~^,~~%~~~d@t~~}~~a" (+ indent 1)) open items close))))
 
 (defun archive-value-text (value indent doubles)
-  "VALUE as text that begins in column INDENT and reads back; with DOUBLES its decimals are doubles."
+  "VALUE as text that begins in column INDENT and reads back; with DOUBLES its decimals are
+doubles."
   (if (and (archive-list-p value) (cdr value))
       (archive-wrapped "["
-                       (mapcar (lambda (item) (archive-value-text item (1+ indent) doubles)) (cdr value))
+                       (mapcar (lambda (item) (archive-value-text item (1+ indent) doubles))
+                               (cdr value))
                        "]" indent)
       (archive-settled-text value :doubles doubles)))
 
@@ -154,18 +166,21 @@
 (defun archive-value-parts (value doubles)
   "VALUE as a list of (key . text)."
   (if (archive-record-p value)
-      (mapcar (lambda (equation) (archive-part (core-spelling (second equation)) (third equation) doubles))
+      (mapcar (lambda (equation)
+                (archive-part (core-spelling (second equation)) (third equation) doubles))
               (cdr value))
       (list (archive-part "value" value doubles))))
 
 (defun archive-note-text (notes)
   "A list of texts as one string of the archive."
-  (archive-spell (substitute-if #\Space (lambda (c) (< (char-code c) 32)) (format nil "~{~a~^; ~}" notes))))
+  (archive-spell (substitute-if #\Space (lambda (c) (< (char-code c) 32))
+                                (format nil "~{~a~^; ~}" notes))))
 
 (defun archive-result-text (name value from form checks left-out)
   "The lines of the section [result NAME], without the last line end."
   (let ((parts (archive-value-parts value (archive-numerical-p name))))
-    (format nil "[result ~a]~%from = ~a~%own = ~a~%~@[form = ~a~%~]~@[check = ~a~%~]~@[left_out = ~a~%~]~{~a~^~%~}"
+    (format nil "[result ~a]~%from = ~a~%own = ~a~%~
+                 ~@[form = ~a~%~]~@[check = ~a~%~]~@[left_out = ~a~%~]~{~a~^~%~}"
             name from (archive-own-digest parts)
             form
             (and checks (archive-note-text checks))
@@ -173,12 +188,14 @@
             (loop for (key . text) in parts collect (format nil "~a = ~a" key text)))))
 
 (defun archive-save (archive results &optional elsewhere)
-  "Writes RESULTS, a list of (name :value :from :form :checks :left-out), into ARCHIVE's file or ELSEWHERE, at one stroke.
+  "Writes RESULTS, a list of (name :value :from :form :checks :left-out), into ARCHIVE's file or
+ELSEWHERE, at one stroke.
 True when done; else a warning, and the file is as it was."
   (archive-save-sections
    archive elsewhere
    (lambda ()
      (loop for (name . parts) in results
            collect (cons (archive-result-name name)
-                         (archive-result-text name (getf parts :value) (getf parts :from) (getf parts :form)
+                         (archive-result-text name (getf parts :value) (getf parts :from)
+                                              (getf parts :form)
                                               (getf parts :checks) (getf parts :left-out)))))))

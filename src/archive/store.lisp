@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Writing into an archive: sections are replaced where they stand, new ones go to the end, everything else stays byte
-;;; for byte. The file is read again just before; if its description changed meanwhile nothing is written. A result that
-;;; cannot be written is still returned: all troubles end in one warning.
+;;; Writing into an archive: sections are replaced where they stand, new ones go to the end,
+;;; everything else stays byte for byte. The file is read again just before; if its description
+;;; changed meanwhile nothing is written. A result that cannot be written is still returned: all
+;;; troubles end in one warning.
 ;;; Look first at archive-save-sections, at the end.
 
 (in-package :maxima)
@@ -9,7 +10,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/check" "archive/disk" "archive/sections"))
 
-(defparameter *archive-write-tries* 20 "How often a write begins anew when another process wrote in between.")
+(defparameter *archive-write-tries* 20
+  "How often a write begins anew when another process wrote in between.")
 
 ;; Text with sections replaced
 
@@ -30,12 +32,14 @@
                  section newline)))
 
 (defun archive-with-section (text name section file)
-  "TEXT of FILE with SECTION, text under its header, in the place of the section NAME, or at the end."
+  "TEXT of FILE with SECTION, text under its header, in the place of the section NAME, or at the
+end."
   (let* ((sheet (archive-split text file :parse nil))
          (lines (archive-file-lines section (sheet-newline sheet)))
          (old (archive-find-section sheet name)))
     (if old
-        (concatenate 'string (subseq text 0 (section-start old)) lines (subseq text (section-end old)))
+        (concatenate 'string (subseq text 0 (section-start old)) lines
+                     (subseq text (section-end old)))
         (archive-with-new-section text lines (sheet-newline sheet)))))
 
 (defun archive-with-sections (text sections file)
@@ -62,17 +66,20 @@
                  (incf position))))))
 
 (defun archive-description-lines (sheet)
-  "What counts of the description in SHEET: sections, keys and values without comments and blanks; not the title."
+  "What counts of the description in SHEET: sections, keys and values without comments and
+blanks; not the title."
   (loop for section in (sheet-sections sheet)
         unless (archive-result-section-p section)
           append (cons (section-name section)
                        (loop for entry in (section-entries section)
                              unless (equal (entry-key entry) "title")
-                               collect (cons (entry-key entry) (archive-bare-text (archive-entry-text entry)))))))
+                               collect (cons (entry-key entry)
+                                             (archive-bare-text (archive-entry-text entry)))))))
 
 (defun archive-check-same-description (archive text)
   (unless (equal (archive-description-lines (archive-parts archive))
-                 (archive-description-lines (archive-split text (archive-path archive) :parse nil)))
+                 (archive-description-lines (archive-split text (archive-path archive)
+                                                           :parse nil)))
     (core-error "its description changed while the result was computed; call the function again")))
 
 ;; One write
@@ -85,7 +92,8 @@
 
 (defun archive-fresh-text (archive)
   "The text of a new file for the results of ARCHIVE."
-  (format nil "# results of ~a~%dynarch = ~d~%kind = ~a~%" (archive-file-name (archive-path archive))
+  (format nil "# results of ~a~%dynarch = ~d~%kind = ~a~%"
+          (archive-file-name (archive-path archive))
           *archive-version* (archive-kind archive)))
 
 (defun archive-write-once (archive target sections)
@@ -95,7 +103,8 @@
          (text (if old (archive-text-of-bytes old target) (archive-fresh-text archive)))
          (new (archive-text-with-results archive text sections target)))
     (when (archive-replace-file file (archive-utf8 new)
-                                (lambda () (if old (equalp old (archive-file-bytes file)) (not (archive-exists-p file)))))
+                                (lambda () (if old (equalp old (archive-file-bytes file))
+                                               (not (archive-exists-p file)))))
       (archive-take-text archive target new)
       t)))
 
@@ -120,10 +129,12 @@
       (error (condition) (remove #\Newline (princ-to-string condition))))))
 
 (defun archive-save-sections (archive elsewhere sections)
-  "Writes what the function SECTIONS returns, a list of (name . text), into ARCHIVE's file or ELSEWHERE. True when done."
+  "Writes what the function SECTIONS returns, a list of (name . text), into ARCHIVE's file or
+ELSEWHERE. True when done."
   (let ((target (or elsewhere (archive-path archive))))
     (when target
-      (let ((trouble (archive-failure (lambda () (archive-write-sections archive target (funcall sections))))))
+      (let ((trouble (archive-failure (lambda () (archive-write-sections archive target
+                                                                         (funcall sections))))))
         (when trouble (core-warn "the result is not saved in ~a: ~a" target trouble))
         (not trouble)))))
 

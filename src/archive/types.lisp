@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The types of the table of keys: one function for each turns a parsed value into the form that the rooms receive,
-;;; or refuses it. archive-typed is the entrance: the value, or what is wrong with it.
-;;; Values are Maxima expressions; what they mean together (lengths, parents, loops) is left to the rooms.
+;;; The types of the table of keys: one function for each turns a parsed value into the form that
+;;; the rooms receive, or refuses it. archive-typed is the entrance: the value, or what is wrong
+;;; with it. Values are Maxima expressions; what they mean together (lengths, parents, loops) is
+;;; left to the rooms.
 
 (in-package :maxima)
 
@@ -26,7 +27,8 @@
 (defun archive-mismatch (key value trouble)
   "The sentence for a VALUE that is not what KEY wants."
   (format nil "~a must be ~a, found ~a~:[; ~a~;~]" (archive-key-name key)
-          (archive-type-phrase (archive-key-type key)) (archive-value-shown value) (string= trouble "") trouble))
+          (archive-type-phrase (archive-key-type key)) (archive-value-shown value)
+          (string= trouble "") trouble))
 
 (defun archive-value-shown (value)
   "VALUE as an archive would spell it, cut after sixty letters."
@@ -63,7 +65,8 @@
        (equal (cddr value) '($t 1))))
 
 (defun archive-expression-p (value)
-  (not (or (stringp value) (member value '(nil t)) (archive-list-p value) (archive-equation-p value)
+  (not (or (stringp value) (member value '(nil t)) (archive-list-p value)
+           (archive-equation-p value)
            (archive-relation-p value) (archive-head-p value '$matrix '$diag 'mand 'mor 'mnot))))
 
 (defun archive-names-in (value)
@@ -94,10 +97,12 @@
         (t (archive-unfit "~a is not a name" (archive-value-shown value)))))
 
 (defun archive-an-expression (value)
-  (if (archive-expression-p value) value (archive-unfit "~a is not an expression" (archive-value-shown value))))
+  (if (archive-expression-p value) value
+      (archive-unfit "~a is not an expression" (archive-value-shown value))))
 
 (defun archive-a-number (value)
-  (cond ((archive-names-in value) (archive-unfit "~a is not a number" (archive-value-shown value)))
+  (cond ((archive-names-in value)
+         (archive-unfit "~a is not a number" (archive-value-shown value)))
         (t (archive-an-expression value))))
 
 ;; Single values
@@ -158,10 +163,12 @@
   (if (eq value '$auto) value (archive-as-vector value)))
 
 (defun archive-as-points (value)
-  (if (= (length (archive-items value)) 2) (archive-each #'archive-as-vector value) (archive-unfit)))
+  (if (= (length (archive-items value)) 2) (archive-each #'archive-as-vector value)
+      (archive-unfit)))
 
 (defun archive-as-pair (value)
-  (if (= (length (archive-items value)) 2) (archive-each #'archive-as-parent value) (archive-unfit)))
+  (if (= (length (archive-items value)) 2) (archive-each #'archive-as-parent value)
+      (archive-unfit)))
 
 (defun archive-an-axis (value)
   (if (member value '(1 2 3)) value (archive-unfit "~a is no axis" (archive-value-shown value))))
@@ -175,7 +182,8 @@
         (archive-unfit))))
 
 (defun archive-as-span (value)
-  (if (= (length (archive-items value)) 2) (archive-each #'archive-a-number value) (archive-unfit)))
+  (if (= (length (archive-items value)) 2) (archive-each #'archive-a-number value)
+      (archive-unfit)))
 
 ;; Matrices
 
@@ -215,7 +223,8 @@
   (let ((equations (mapcar (lambda (item)
                              (unless (archive-equation-p item)
                                (archive-unfit "~a is not an equation" (archive-value-shown item)))
-                             (archive-equation (funcall check-left (second item)) (funcall check-right (third item))))
+                             (archive-equation (funcall check-left (second item))
+                                               (funcall check-right (third item))))
                            (archive-items value))))
     (archive-check-distinct (mapcar #'second equations))
     (archive-list equations)))
@@ -246,7 +255,8 @@
   (archive-checked-equations value #'archive-a-state #'archive-an-expression))
 
 (defun archive-a-velocity (value)
-  (if (archive-velocity-p value) value (archive-unfit "~a is not a velocity" (archive-value-shown value))))
+  (if (archive-velocity-p value) value
+      (archive-unfit "~a is not a velocity" (archive-value-shown value))))
 
 (defun archive-as-rates (value)
   (archive-checked-equations value #'archive-a-velocity #'archive-an-expression))
@@ -256,13 +266,15 @@
   (archive-each (lambda (item)
                   (unless (archive-equation-p item)
                     (archive-unfit "~a is not an equation" (archive-value-shown item)))
-                  (archive-equation (if (eql (third item) 0) (second item) (sub (second item) (third item))) 0))
+                  (archive-equation (if (eql (third item) 0) (second item)
+                                        (sub (second item) (third item))) 0))
                 value))
 
 (defun archive-a-fact (value)
   (cond ((archive-relation-p value) value)
         ((archive-equation-p value)
-         (archive-unfit "~a is no inequality; numbers stand in `values'" (archive-value-shown value)))
+         (archive-unfit "~a is no inequality; numbers stand in `values'"
+                        (archive-value-shown value)))
         (t (archive-a-name value))))
 
 (defun archive-as-facts (value) (archive-each #'archive-a-fact value))
@@ -284,7 +296,8 @@
     (unless (= (length nodes) 2)
       (archive-unfit "~a is not {{node, node}, value}" (archive-value-shown branch)))
     (unless type
-      (archive-unfit "~a does not begin with L, C, R, E, I, f, g or h" (archive-value-shown value)))
+      (archive-unfit "~a does not begin with L, C, R, E, I, f, g or h"
+                     (archive-value-shown value)))
     (archive-list (append (mapcar #'archive-as-node nodes) (list (core-symbol type) value)
                           (mapcar #'archive-a-name (cddr items))))))
 
