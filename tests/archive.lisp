@@ -66,6 +66,17 @@ an e with its accent."
                (write-byte byte out))))
   path)
 
+(defun $test_copy (path other)
+  (with-open-file (out (archive-native-path other) :direction :output :element-type '(unsigned-byte 8)
+                                                   :if-exists :supersede)
+    (write-sequence (archive-file-bytes path) out))
+  other)
+
+(defun $test_examples ()
+  "Names of the archives in the folder examples."
+  (test-list (mapcar (lambda (path) (archive-file-name (namestring path)))
+                     (directory (format nil "~aexamples/*.txt" *core-root*)))))
+
 (defun $test_text (path)
   "The content of PATH as $test_write takes it; bytes beyond ASCII are <code>."
   (with-output-to-string (out)
