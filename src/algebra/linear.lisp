@@ -56,12 +56,43 @@
 (defun algebra-cramer-row (cofactors j right determinant)
   (loop for column below (length (car right))
         collect (algebra-general-reduced
-                 (algebra-over-quotient
+                 (algebra-over-polynomial
                   (algebra-sum (loop for row in right
                                      for i from 0
                                      collect (algebra-times (cons (aref cofactors i j) 1)
                                                             (nth column row))))
-                  (cons determinant 1)))))
+                  determinant))))
+
+(defun algebra-over-polynomial (quotient d)
+  (cons (car quotient) (ptimes (cdr quotient) d)))
+
+(defun $algebra_inverse_form (m b)
+  "b . M^-1 . b for a symmetric M: one numerator over one determinant."
+  (algebra-check-square m "the matrix of a quadratic form")
+  (unless (and ($listp b) (= (length b) (length m)))
+    (core-error "a list of ~A elements was expected, found ~A"
+                (length (cdr m)) (algebra-short-text b)))
+  (with-algebra-ring
+    (let ((rows (append (algebra-scan-rows m) (list (mapcar #'algebra-scan (cdr b))))))
+      (algebra-order-kernels)
+      (setq rows (mapcar (lambda (row) (mapcar #'algebra-evaluate row)) rows))
+      (algebra-general-reduced (algebra-inverse-form (butlast rows) (car (last rows)))))))
+
+(defun algebra-inverse-form (rows b)
+  (multiple-value-bind (matrix denominators) (algebra-row-denominators rows)
+    (let* ((cofactors (algebra-cofactors (algebra-square-array matrix)))
+           (determinant (algebra-expand-first-row matrix cofactors)))
+      (algebra-over-polynomial
+       (algebra-sum
+        (loop for b-i in b
+              for d in denominators
+              for i from 0
+              append (loop for b-j in b
+                           for j from 0
+                           collect (algebra-times (algebra-times b-i (cons d 1))
+                                                  (algebra-times (cons (aref cofactors i j) 1)
+                                                                 b-j)))))
+       determinant))))
 
 ;;; Elimination on general expressions, for systems of any shape.
 

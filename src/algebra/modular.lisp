@@ -9,40 +9,63 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/kernels"))
 
-(defvar *algebra-prime* 1073741789 "the largest prime below 2^30: products are fixnums")
+(defmacro algebra-prime ()
+  "The largest prime below 2^30: products are fixnums."
+  1073741789)
+
+(defmacro algebra-modulo (x)
+  `(the fixnum (mod (the fixnum ,x) (algebra-prime))))
 
 (defun algebra-modular-inverse (a)
   "a^(p-2) modulo p"
-  (let ((power 1) (base (mod a *algebra-prime*)))
-    (loop for n = (- *algebra-prime* 2) then (ash n -1)
-          until (zerop n)
-          do (when (oddp n) (setq power (mod (* power base) *algebra-prime*)))
-             (setq base (mod (* base base) *algebra-prime*)))
-    power))
+  (algebra-modular-power (mod a (algebra-prime)) (- (algebra-prime) 2)))
 
 ;;; Values at a point: a table of the variables.
 
 (defun algebra-modular-value (p point)
   (if (atom p)
-      (mod p *algebra-prime*)
+      (mod p (algebra-prime))
       (let ((x (gethash (car p) point)) (sum 0))
         (loop for (exponent coefficient) on (cdr p) by #'cddr
               do (setq sum (mod (+ sum (* (algebra-modular-power x exponent)
                                           (algebra-modular-value coefficient point)))
-                                *algebra-prime*)))
+                                (algebra-prime))))
         sum)))
 
 (defun algebra-modular-power (x n)
-  (let ((power 1))
-    (loop repeat n do (setq power (mod (* power x) *algebra-prime*)))
+  (let ((power 1) (base x))
+    (declare (fixnum power base))
+    (loop until (zerop n)
+          do (when (oddp n) (setq power (algebra-modulo (* power base))))
+             (setq base (algebra-modulo (* base base))
+                   n (ash n -1)))
     power))
+
+(defun algebra-modular-point (seed)
+  "Values of all variables: for each angle c = (1-u^2)/(1+u^2), s = 2u/(1+u^2)."
+  (let ((point (make-hash-table :test #'eq)))
+    (flet ((next () (setq seed (mod (+ (* seed 48271) 11) (algebra-prime)))))
+      (dolist (kernel (algebra-ring-kernels *algebra-ring*))
+        (setf (gethash (algebra-kernel-variable kernel) point) (next)))
+      (dolist (unit (algebra-ring-units *algebra-ring*) point)
+        (when (algebra-pair-p unit)
+          (destructuring-bind (c . s)
+              (algebra-modular-angle (next) (eq (algebra-unit-kind unit) 'circular))
+            (setf (gethash (algebra-kernel-variable (algebra-unit-cosine unit)) point) c
+                  (gethash (algebra-kernel-variable (algebra-unit-sine unit)) point) s)))))))
+
+(defun algebra-modular-angle (u circular)
+  (let* ((square (if circular (* u u) (- (* u u))))
+         (below (algebra-modular-inverse (1+ square))))
+    (cons (mod (* (- 1 square) below) (algebra-prime))
+          (mod (* 2 u below) (algebra-prime)))))
 
 ;;; Images on a line: vectors of coefficients, lowest first, without leading zeros.
 
 (defun algebra-line-image (p line)
   "LINE is a table of pairs (a . b)."
   (if (atom p)
-      (algebra-trimmed (vector (mod p *algebra-prime*)))
+      (algebra-trimmed (vector (mod p (algebra-prime))))
       (destructuring-bind (a . b) (algebra-line-of (car p) line)
         (let ((image (vector)) (last (cadr p)))
           (loop for (exponent coefficient) on (cdr p) by #'cddr
@@ -58,27 +81,34 @@
   (or (gethash variable line)
       (setf (gethash variable line)
             (let ((seed (+ 7919 (* 104729 (1+ (hash-table-count line))))))
-              (cons (mod (* seed seed) *algebra-prime*)
-                    (1+ (mod (* seed 48271) (1- *algebra-prime*))))))))
+              (cons (mod (* seed seed) (algebra-prime))
+                    (1+ (mod (* seed 48271) (1- (algebra-prime)))))))))
 
 (defun algebra-times-linear (image a b)
   "IMAGE times a + b*t."
+  (declare (simple-vector image) (fixnum a b))
   (let* ((n (length image))
          (product (make-array (1+ n) :initial-element 0)))
     (dotimes (k n (algebra-trimmed product))
       (let ((c (svref image k)))
-        (setf (svref product k) (mod (+ (svref product k) (* a c)) *algebra-prime*)
-              (svref product (1+ k)) (mod (* b c) *algebra-prime*))))))
+        (declare (fixnum c))
+        (setf (svref product k)
+              (algebra-modulo (+ (the fixnum (svref product k)) (the fixnum (* a c))))
+              (svref product (1+ k)) (algebra-modulo (* b c)))))))
 
 (defun algebra-modular-sum (u v)
+  (declare (simple-vector u v))
   (when (< (length u) (length v)) (rotatef u v))
   (let ((sum (copy-seq u)))
+    (declare (simple-vector sum))
     (dotimes (k (length v) (algebra-trimmed sum))
-      (setf (svref sum k) (mod (+ (svref u k) (svref v k)) *algebra-prime*)))))
+      (setf (svref sum k)
+            (algebra-modulo (+ (the fixnum (svref u k)) (the fixnum (svref v k))))))))
 
 (defun algebra-trimmed (image)
+  (declare (simple-vector image))
   (let ((n (length image)))
-    (loop while (and (plusp n) (zerop (svref image (1- n)))) do (decf n))
+    (loop while (and (plusp n) (eql 0 (svref image (1- n)))) do (decf n))
     (if (= n (length image)) image (subseq image 0 n))))
 
 (defun algebra-modular-remainder (u v)
@@ -87,13 +117,13 @@
          (m (length v))
          (inverse (algebra-modular-inverse (svref v (1- m)))))
     (loop for top from (1- (length u)) downto (1- m)
-          do (let ((factor (mod (* (svref u top) inverse) *algebra-prime*)))
+          do (let ((factor (mod (* (svref u top) inverse) (algebra-prime))))
                (unless (zerop factor)
                  (loop for k from 0 below m
                        for place = (+ k (- top m -1))
                        do (setf (svref u place)
                                 (mod (- (svref u place) (* factor (svref v k)))
-                                     *algebra-prime*))))))
+                                     (algebra-prime)))))))
     (algebra-trimmed u)))
 
 (defun algebra-modular-coprime-p (u v)

@@ -52,10 +52,16 @@
   "Reduce numerator and denominator modulo the relations and cancel."
   (destructuring-bind (n . d) quotient
     (let ((above (algebra-reduce n))
-          (below (algebra-reduce-roots d)))
-      (cond ((algebra-vanishes-p d) (core-error "division by zero"))
+          (below (algebra-reduce d)))
+      (cond ((pzerop (car below)) (core-error "division by zero"))
             ((pzerop (car above)) (cons 0 1))
-            (t (algebra-settle (algebra-shortest-angles (algebra-ratio-of above below))))))))
+            ((eql d 1) above)
+            ((algebra-long-p d) (algebra-shortest-angles (algebra-ratio-of above below)))
+            (t (algebra-settle (algebra-shortest-angles
+                                (algebra-ratio-of above (algebra-reduce-roots d)))))))))
+
+(defun algebra-long-p (d)
+  (> (algebra-monomials d) 12))
 
 (defun algebra-settle (quotient)
   "Cancel again what the readable form shows, until nothing changes: the form is its own form."
@@ -88,8 +94,33 @@
   "For each angle below the line write it in sines or in cosines, whichever cancels more."
   (dolist (unit (algebra-ring-units *algebra-ring*) quotient)
     (when (and (algebra-pair-p unit)
-               (algebra-unit-occurs-p unit (cdr quotient)))
+               (algebra-unit-occurs-p unit (cdr quotient))
+               (or (not (algebra-long-p (cdr quotient)))
+                   (algebra-sine-divides-p unit (cdr quotient))
+                   (algebra-cosine-divides-p unit (cdr quotient))))
       (setq quotient (algebra-shorter-angle quotient unit)))))
+
+(defun algebra-sine-divides-p (unit p)
+  "P vanishes with s, where c^2 = 1."
+  (let* ((cosine (algebra-kernel-variable (algebra-unit-cosine unit)))
+         (without (algebra-parity-part (algebra-at-zero p (algebra-unit-sine unit)) cosine 0))
+         (odd (algebra-parity-part (algebra-at-zero p (algebra-unit-sine unit)) cosine 1)))
+    (and (pzerop (algebra-at-one without cosine))
+         (pzerop (algebra-at-one odd cosine)))))
+
+(defun algebra-cosine-divides-p (unit p)
+  "P vanishes with c, where s^2 = 1."
+  (and (eq (algebra-unit-kind unit) 'circular)
+       (let* ((sine (algebra-kernel-variable (algebra-unit-sine unit)))
+              (without (algebra-at-zero p (algebra-unit-cosine unit))))
+         (and (pzerop (algebra-at-one (algebra-parity-part without sine 0) sine))
+              (pzerop (algebra-at-one (algebra-parity-part without sine 1) sine))))))
+
+(defun algebra-at-zero (p kernel)
+  (pcsubsty 0 (algebra-kernel-variable kernel) p))
+
+(defun algebra-at-one (p variable)
+  (pcsubsty 1 variable p))
 
 (defun algebra-shorter-angle (quotient unit)
   (destructuring-bind (n . d) quotient

@@ -53,27 +53,8 @@
 (defun algebra-point-minor (matrix)
   "(rows . columns) of a minor that does not vanish at a point; none if some kernel has no value."
   (if (every #'algebra-kernel-sure (algebra-ring-kernels *algebra-ring*))
-      (algebra-modular-pivots (algebra-modular-matrix matrix (algebra-modular-point)))
+      (algebra-modular-pivots (algebra-modular-matrix matrix (algebra-modular-point 20011)))
       '(nil)))
-
-(defun algebra-modular-point ()
-  "Values of all variables: for each angle c = (1-u^2)/(1+u^2), s = 2u/(1+u^2)."
-  (let ((point (make-hash-table :test #'eq)) (seed 20011))
-    (flet ((next () (setq seed (mod (+ (* seed 48271) 11) *algebra-prime*))))
-      (dolist (kernel (algebra-ring-kernels *algebra-ring*))
-        (setf (gethash (algebra-kernel-variable kernel) point) (next)))
-      (dolist (unit (algebra-ring-units *algebra-ring*) point)
-        (when (algebra-pair-p unit)
-          (destructuring-bind (c . s)
-              (algebra-modular-angle (next) (eq (algebra-unit-kind unit) 'circular))
-            (setf (gethash (algebra-kernel-variable (algebra-unit-cosine unit)) point) c
-                  (gethash (algebra-kernel-variable (algebra-unit-sine unit)) point) s)))))))
-
-(defun algebra-modular-angle (u circular)
-  (let* ((square (if circular (* u u) (- (* u u))))
-         (below (algebra-modular-inverse (1+ square))))
-    (cons (mod (* (- 1 square) below) *algebra-prime*)
-          (mod (* 2 u below) *algebra-prime*))))
 
 (defun algebra-modular-matrix (matrix point)
   (let ((values (make-array (array-dimensions matrix))))
@@ -98,4 +79,4 @@
         (let ((factor (* (aref a i j) inverse)))
           (dotimes (k (array-dimension a 1))
             (setf (aref a i k)
-                  (mod (- (aref a i k) (* factor (aref a pivot k))) *algebra-prime*))))))))
+                  (mod (- (aref a i k) (* factor (aref a pivot k))) (algebra-prime)))))))))

@@ -1,24 +1,19 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
 ;;; algebra_zerop(e): true, false or unknown, exactly.  True: the numerator vanishes modulo the
-;;; relations of its kernels.  False: it does not, and either the kernels are independent over
-;;; the rationals, or the value at a rational point is proved not zero by intervals.
+;;; relations of its kernels.  False: a value at a point is not zero, modulo a prime where the
+;;; kernels are independent, else by intervals.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/interval" "algebra/numbers"))
+  (core-require "algebra/normal" "algebra/sample" "algebra/interval" "algebra/numbers"))
 
 (defun $algebra_zerop (e)
   (cond ((mequalp e) (algebra-zero-test (sub (cadr e) (caddr e))))
-        ((mbagp e) (algebra-all-zero (mapcar #'$algebra_zerop (cdr e))))
+        ((mbagp e) (algebra-worst-answer (mapcar #'$algebra_zerop (cdr e))))
         ((numberp e) (zerop e))
         (t (algebra-zero-test e))))
-
-(defun algebra-all-zero (answers)
-  (cond ((member nil answers) nil)
-        ((member '$unknown answers) '$unknown)
-        (t t)))
 
 (defun algebra-zero-test (e)
   (case (algebra-remainder-test e)
@@ -31,10 +26,15 @@
   (with-algebra-ring
     (let* ((*algebra-exponential-form* t)
            (*algebra-roots-apart* t)
-           (skeleton (algebra-scan e))
-           (quotient (progn (algebra-order-kernels) (algebra-evaluate skeleton))))
-      (when (algebra-vanishes-p (cdr quotient)) (core-error "division by zero"))
-      (algebra-polynomial-test (car (algebra-reduce (car quotient)))))))
+           (skeleton (algebra-scan e)))
+      (algebra-order-kernels)
+      (if (null (algebra-sampled-zero skeleton))
+          'not-zero
+          (algebra-expanded-test (algebra-evaluate skeleton))))))
+
+(defun algebra-expanded-test (quotient)
+  (when (algebra-vanishes-p (cdr quotient)) (core-error "division by zero"))
+  (algebra-polynomial-test (car (algebra-reduce (car quotient)))))
 
 (defun algebra-polynomial-test (p)
   (let ((unsure (algebra-unsure-kernels p)))
