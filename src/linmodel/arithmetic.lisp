@@ -1,11 +1,37 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What the recursion over bodies computes with. An arithmetic says how numbers and parameters are taken in (lift), added,
-;;; multiplied and given back (lower), and what sine and cosine of an angle are; the recursion is written once over it.
-;;; Here: general expressions, left as products and sums of short factors; and counts of terms, which foretell their size.
+;;; What the recursion over bodies computes with. An arithmetic says how expressions are taken in (lift) and given back (lower),
+;;; how its elements are added and multiplied, what sine and cosine of an angle are, and how long an element is (size, 0 where
+;;; nothing is multiplied out); zero is 0 in each of them.
+;;; The recursion is written once and runs on general expressions, left as sums of products of short factors (factored), on the
+;;; canonical form, and, before that, on an arithmetic that only meets the kernels. See linmodel-compute first.
 
 (in-package :maxima)
 
-(defstruct linmodel-arithmetic lift lower add multiply sine cosine)
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/normal" "algebra/size"))
+
+(defstruct linmodel-arithmetic lift lower add multiply sine cosine (size (constantly 0)))
+
+(defvar *linmodel-moderate* 20000 "Where more terms than this are foretold, the canonical form is taken only if it is asked for.")
+
+(defun linmodel-compute (form function)
+  "FUNCTION of the arithmetic for FORM: canonical, factored, or auto, which is canonical as long as that stays short."
+  (ecase form
+    ($factored (funcall function (linmodel-general-arithmetic)))
+    ($canonical (linmodel-compute-canonical function))
+    ($auto (let ((found (core-attempt (lambda ()
+                                        (let ((*algebra-limit* *linmodel-moderate*))
+                                          (linmodel-compute-canonical function))))))
+             (if found (car found) (funcall function (linmodel-general-arithmetic)))))))
+
+(defun linmodel-compute-canonical (function)
+  (with-algebra-ring
+    (funcall function (linmodel-scanning-arithmetic))
+    (algebra-order-kernels)
+    (funcall function (linmodel-canonical-arithmetic))))
+
+(defun linmodel-sine (angle) (simplify (list '(%sin) angle)))
+(defun linmodel-cosine (angle) (simplify (list '(%cos) angle)))
 
 (defun linmodel-general-arithmetic ()
   "Maxima's general expressions, nothing multiplied out."
@@ -14,36 +40,44 @@
    :lower #'identity
    :add (lambda (x y) (add x y))
    :multiply (lambda (x y) (mul x y))
-   :sine (lambda (angle) (simplify (list '(%sin) angle)))
-   :cosine (lambda (angle) (simplify (list '(%cos) angle)))))
+   :sine #'linmodel-sine
+   :cosine #'linmodel-cosine))
 
-(defun linmodel-terms-of (e)
-  (cond ((eql e 0) 0)
-        ((atom e) 1)
-        ((eq (caar e) 'mplus) (reduce #'+ (mapcar #'linmodel-terms-of (cdr e))))
-        ((eq (caar e) 'mtimes) (reduce #'* (mapcar #'linmodel-terms-of (cdr e))))
-        (t 1)))
+(defun linmodel-scanning-arithmetic ()
+  "Meets every kernel of the computation, so that the ring of the canonical form knows them all; computes nothing."
+  (flet ((scan (e) (if (eql e 0) 0 (progn (algebra-scan e) 1))))
+    (make-linmodel-arithmetic
+     :lift #'scan
+     :lower #'identity
+     :add (lambda (x y) (declare (ignore x y)) 1)
+     :multiply (lambda (x y) (declare (ignore x y)) 1)
+     :sine (lambda (angle) (scan (linmodel-sine angle)))
+     :cosine (lambda (angle) (scan (linmodel-cosine angle))))))
 
-(defun linmodel-angle-terms (angle)
-  "sin(a+b) has two terms when written in the angles a and b."
-  (expt 2 (max 0 (1- (linmodel-terms-of angle)))))
+(defun linmodel-canonical-arithmetic ()
+  "Quotients of polynomials in the kernels, reduced by s^2 + c^2 = 1 after every product."
+  (flet ((lift (e) (linmodel-element (algebra-cancel (algebra-evaluate (algebra-scan e))))))
+    (make-linmodel-arithmetic
+     :lift #'lift
+     :lower #'linmodel-lowered-quotient
+     :add (lambda (x y) (linmodel-element (ratplus x y)))
+     :multiply (lambda (x y) (linmodel-element (algebra-cancel (algebra-product (list x y)))))
+     :sine (lambda (angle) (lift (linmodel-sine angle)))
+     :cosine (lambda (angle) (lift (linmodel-cosine angle)))
+     :size (lambda (x) (if (eql x 0) 0 (algebra-monomials (car x)))))))
 
-(defun linmodel-counting-arithmetic ()
-  "Upper bounds for the number of terms of the multiplied-out expression."
-  (make-linmodel-arithmetic
-   :lift #'linmodel-terms-of
-   :lower #'identity
-   :add #'+
-   :multiply #'*
-   :sine #'linmodel-angle-terms
-   :cosine #'linmodel-angle-terms))
+(defun linmodel-element (quotient)
+  (if (pzerop (car quotient)) 0 quotient))
 
-(defun linmodel-arithmetic-named (name)
-  (ecase name
-    ($general (linmodel-general-arithmetic))
-    ($terms (linmodel-counting-arithmetic))))
+(defun linmodel-lowered-quotient (x)
+  (if (eql x 0)
+      0
+      (algebra-general-quotient (algebra-readable (car x)) (algebra-readable (cdr x)))))
 
 ;;; Vectors are lists of three elements.
+
+(defun linmodel-lift (a e)
+  (funcall (linmodel-arithmetic-lift a) e))
 
 (defun linmodel-lift-vector (a vector)
   (mapcar (linmodel-arithmetic-lift a) (cdr vector)))
@@ -60,13 +94,10 @@
   (if (or (eql x 0) (eql y 0)) 0 (funcall (linmodel-arithmetic-multiply a) x y)))
 
 (defun linmodel-minus (a x)
-  (linmodel-times a (funcall (linmodel-arithmetic-lift a) -1) x))
+  (linmodel-times a (linmodel-lift a -1) x))
 
 (defun linmodel-vector-plus (a u v)
   (mapcar (lambda (x y) (linmodel-plus a x y)) u v))
-
-(defun linmodel-scaled (a factor v)
-  (mapcar (lambda (x) (linmodel-times a factor x)) v))
 
 (defun linmodel-dot (a u v)
   (let ((sum 0))

@@ -58,15 +58,45 @@
                  do (setf (aref form i j)
                           (linmodel-plus a (aref form i j) (linmodel-twist-product a body x y))))))
 
-(defun $linmodel_inertia_form (links bodies n arithmetic)
-  "The symmetric matrix of (x_i, x_j), i, j = 0 .. N: T = sum (x_i, x_j) q_i' q_j'/2 with q_0' = 1."
-  (let* ((a (linmodel-arithmetic-named arithmetic))
-         (twists (linmodel-all-twists a (cdr links) n))
-         (form (make-array (list (1+ n) (1+ n)) :initial-element 0)))
-    (dolist (body (cdr bodies))
+(defun linmodel-inertia-form (a links bodies n)
+  "The array of (x_i, x_j), i <= j, i and j from 0 to N."
+  (let ((twists (linmodel-all-twists a (cdr links) n))
+        (form (make-array (list (1+ n) (1+ n)) :initial-element 0)))
+    (dolist (body (cdr bodies) form)
       (let ((body (linmodel-read-body a body)))
-        (linmodel-add-body a form body (nth (1- (linmodel-body-link body)) twists))))
-    (cons '($matrix simp)
-          (loop for i from 0 to n
-                collect (linmodel-lower-vector a (loop for j from 0 to n
-                                                       collect (aref form (min i j) (max i j))))))))
+        (linmodel-add-body a form body (nth (1- (linmodel-body-link body)) twists))))))
+
+(defun linmodel-form-at (a form velocities)
+  "sum of (x_i, x_j) v_i v_j/2 over all i and j."
+  (let ((sum 0) (n (length velocities)) (half (linmodel-lift a '((rat simp) 1 2))))
+    (loop for i below n
+          for v in velocities
+          do (loop for j from i below n
+                   for w in (nthcdr i velocities)
+                   for product = (linmodel-times a (aref form i j) (linmodel-times a v w))
+                   do (setq sum (linmodel-plus a sum (if (= i j) (linmodel-times a half product) product)))))
+    sum))
+
+;;; For Maxima.
+
+(defun $linmodel_inertia_form (links bodies n form)
+  "The symmetric matrix of (x_i, x_j), i, j = 0 .. N: T = sum (x_i, x_j) q_i' q_j'/2 with q_0' = 1."
+  (linmodel-compute
+   form
+   (lambda (a)
+     (let ((products (linmodel-inertia-form a links bodies n)))
+       (cons '($matrix simp)
+             (loop for i from 0 to n
+                   collect (linmodel-lower-vector
+                            a (loop for j from 0 to n collect (aref products (min i j) (max i j))))))))))
+
+(defun $linmodel_energy (links bodies velocities form)
+  "[T, true where it has terms of less than the second degree in the VELOCITIES [1, v_1, ..]]."
+  (linmodel-compute
+   form
+   (lambda (a)
+     (let ((products (linmodel-inertia-form a links bodies (1- (length (cdr velocities)))))
+           (lifted (linmodel-lift-vector a velocities)))
+       (list '(mlist simp)
+             (funcall (linmodel-arithmetic-lower a) (linmodel-form-at a products lifted))
+             (loop for j below (length lifted) thereis (not (eql 0 (aref products 0 j)))))))))

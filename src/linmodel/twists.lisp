@@ -53,10 +53,20 @@
 (defun linmodel-link-twists (a link parent-twists n)
   "The twists of LINK that are not zero: a list of (i w . v), i from 0 to N."
   (let ((turns (linmodel-link-turns a link)) (joint (linmodel-link-joint a link)) (rows (linmodel-link-rows a link)))
-    (loop for i from 0 to n
-          for twist = (linmodel-carried-twist a i (linmodel-twist-of i parent-twists) turns joint rows)
-          unless (linmodel-twist-zero-p twist)
-            collect (cons i twist))))
+    (linmodel-guarded-twists
+     a
+     (loop for i from 0 to n
+           for twist = (linmodel-carried-twist a i (linmodel-twist-of i parent-twists) turns joint rows)
+           unless (linmodel-twist-zero-p twist)
+             collect (cons i twist)))))
+
+(defun linmodel-guarded-twists (a twists)
+  "TWISTS, unless their products would be too many. (Of the products of terms about one in four is left: spatial chains.)"
+  (let ((terms 0))
+    (loop for (nil w . v) in twists
+          do (dolist (x (append w v)) (incf terms (funcall (linmodel-arithmetic-size a) x))))
+    (algebra-guard (floor (* terms terms) 4) "the canonical form of the kinetic energy")
+    twists))
 
 (defun linmodel-carried-twist (a i twist turns joint rows)
   (destructuring-bind (w . v) twist
@@ -79,36 +89,51 @@
 
 ;;; For Maxima.
 
-(defun $linmodel_twists (links n arithmetic)
+(defun $linmodel_twists (links n form)
   "For each link the list of its twists [i, w, v]."
-  (let ((a (linmodel-arithmetic-named arithmetic)))
-    (cons '(mlist simp)
-          (mapcar (lambda (twists) (cons '(mlist simp) (mapcar (lambda (twist) (linmodel-lower-twist a twist)) twists)))
-                  (linmodel-all-twists a (cdr links) n)))))
+  (linmodel-compute
+   form
+   (lambda (a)
+     (cons '(mlist simp)
+           (mapcar (lambda (twists)
+                     (cons '(mlist simp) (mapcar (lambda (twist) (linmodel-lower-twist a twist)) twists)))
+                   (linmodel-all-twists a (cdr links) n))))))
 
 (defun linmodel-lower-twist (a twist)
   (destructuring-bind (i w . v) twist
     (list '(mlist simp) i (linmodel-lower-vector a w) (linmodel-lower-vector a v))))
 
-(defun $linmodel_direction_cosines (link arithmetic)
+(defun $linmodel_direction_cosines (link form)
   "alpha with x_parent = alpha*x_link: its rows are the parent's axes in axes of the link."
-  (let* ((a (linmodel-arithmetic-named arithmetic)) (turns (linmodel-link-turns a link)))
-    (cons '($matrix simp)
-          (mapcar (lambda (axis) (linmodel-lower-vector a (linmodel-turned-by-all a turns axis)))
-                  (mapcar (lambda (axis) (mapcar (linmodel-arithmetic-lift a) axis))
-                          '((1 0 0) (0 1 0) (0 0 1)))))))
+  (linmodel-compute
+   form
+   (lambda (a)
+     (let ((turns (linmodel-link-turns a link)))
+       (cons '($matrix simp)
+             (loop for axis in '((1 0 0) (0 1 0) (0 0 1))
+                   collect (linmodel-lower-vector
+                            a (linmodel-turned-by-all a turns (mapcar (linmodel-arithmetic-lift a) axis)))))))))
 
-(defun $linmodel_carried (links vector arithmetic)
-  "For each link the fixed VECTOR in its axes, and its product with the radius vector of O_k: [[..], product]."
-  (let ((a (linmodel-arithmetic-named arithmetic)))
-    (cons '(mlist simp)
-          (mapcar (lambda (pair) (list '(mlist simp) (linmodel-lower-vector a (car pair))
-                                       (funcall (linmodel-arithmetic-lower a) (cdr pair))))
-                  (linmodel-over-links (cdr links)
-                                       (lambda (link parent)
-                                         (linmodel-carried-vector a link (or parent (cons (linmodel-lift-vector a vector) 0)))))))))
+(defun $linmodel_weights (links bodies vector form)
+  "The sum over the bodies of mass times VECTOR.r, r the radius vector of the centre of mass, VECTOR fixed."
+  (linmodel-compute
+   form
+   (lambda (a)
+     (let ((carried (linmodel-over-links
+                     (cdr links)
+                     (lambda (link parent)
+                       (linmodel-carried-vector a link (or parent (cons (linmodel-lift-vector a vector) 0))))))
+           (sum 0))
+       (dolist (body (cdr bodies) (funcall (linmodel-arithmetic-lower a) sum))
+         (setq sum (linmodel-plus a sum (linmodel-weight a body (nth (1- (second body)) carried)))))))))
 
 (defun linmodel-carried-vector (a link pair)
+  "From (vector . vector.r_O) of the parent the same of LINK: the fixed vector in its axes, r_O the radius vector of its origin."
   (destructuring-bind (vector . product) pair
     (cons (linmodel-turned-by-all a (linmodel-link-turns a link) vector)
           (linmodel-plus a product (linmodel-dot a (linmodel-link-joint a link) vector)))))
+
+(defun linmodel-weight (a body pair)
+  (destructuring-bind (vector . product) pair
+    (linmodel-times a (linmodel-lift a (third body))
+                    (linmodel-plus a product (linmodel-dot a vector (linmodel-lift-vector a (fourth body)))))))
