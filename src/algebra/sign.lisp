@@ -9,9 +9,15 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/zero" "algebra/interval"))
 
+(defvar *algebra-signs* nil "signs of symbols found during one call: (symbol . sign), ..")
+
 (defun $algebra_sign (e)
   "pos, neg, zero, pz (>= 0), nz (<= 0), pn (not zero) or unknown."
-  (algebra-sign (algebra-normal-form e)))
+  (let* ((*algebra-signs* nil)
+         (sign (algebra-part-sign e)))
+    (if (member sign '($pos $neg $zero))
+        sign
+        (algebra-sign (algebra-normal-form e)))))
 
 (defun $algebra_positive (e)
   "true, false or unknown"
@@ -71,10 +77,24 @@
 
 (defun algebra-sum-sign (terms)
   "Terms of one sign; else what the facts say of the whole."
-  (let ((signs (mapcar #'algebra-part-sign terms)))
-    (if (eq (algebra-sign-of-all signs) '$unknown)
+  (let ((sign (algebra-common-sign terms #'algebra-part-sign)))
+    (if (eq sign '$unknown)
         (algebra-fact-sign (addn terms nil))
-        (algebra-sign-of-all signs))))
+        sign)))
+
+(defun algebra-common-sign (terms sign-of)
+  "The sign of a sum of TERMS that do not work against each other, else unknown."
+  (let ((sum '$zero))
+    (dolist (term terms sum)
+      (setq sum (algebra-plus-sign sum (funcall sign-of term)))
+      (when (eq sum '$unknown) (return sum)))))
+
+(defun algebra-plus-sign (a b)
+  (cond ((eq a '$zero) b)
+        ((eq b '$zero) a)
+        ((and (member a '($pos $pz)) (member b '($pos $pz))) (if (eq a '$pos) a b))
+        ((and (member a '($neg $nz)) (member b '($neg $nz))) (if (eq a '$neg) a b))
+        (t '$unknown)))
 
 (defun algebra-product-sign (factors)
   (let ((sign '$pos))
@@ -112,25 +132,32 @@
 ;;; Maxima's own knowledge.
 
 (defun algebra-fact-sign (e)
-  (let ((answer (algebra-quietly (lambda () ($sign e)))))
-    (case answer
-      (($pos $neg $zero $pz $nz $pn) answer)
-      (t '$unknown))))
+  (or (and (symbolp e) (cdr (assoc e *algebra-signs* :test #'eq)))
+      (let ((answer (if (< (algebra-size e) 1000)
+                        (algebra-quietly (lambda () ($sign e))))))
+        (unless (member answer '($pos $neg $zero $pz $nz $pn)) (setq answer '$unknown))
+        (when (symbolp e) (push (cons e answer) *algebra-signs*))
+        answer)))
 
 ;;; Factors and facts.
 
 (defun algebra-factored-sign (e)
-  (let ((factored (algebra-quietly (lambda () ($factor e)))))
+  (let ((factored (if (< (algebra-size e) 1000)
+                      (algebra-quietly (lambda () ($factor e))))))
     (cond ((or (null factored) (alike1 factored e)) '$unknown)
           ((or (mtimesp factored) (mexptp factored)) (algebra-simple-sign factored))
           (t '$unknown))))
 
+(defvar *algebra-shifts-left* 0 "how many more facts may be put in")
+
 (defun algebra-shifted-sign (e)
   "Put x = u + d for facts x > u, d positive, one after the other, until all terms have one sign."
-  (let ((facts (algebra-gaps (cdr ($facts)))))
-    (if facts
-        (algebra-shift e facts nil 4)
-        '$unknown)))
+  (let ((gaps (algebra-gaps (cdr ($facts))))
+        (*algebra-shifts-left* (floor 16000 (+ 100 (algebra-size e)))))
+    (loop for depth from 1 to (min 4 (length gaps))
+          for sign = (algebra-shift e gaps nil depth)
+          unless (eq sign '$unknown) return sign
+          finally (return '$unknown))))
 
 (defun algebra-gaps (facts)
   "(gap . strict) for each fact gap > 0 or gap >= 0 that is more than the sign of a symbol."
@@ -142,7 +169,7 @@
 (defun algebra-shift (e gaps signs depth)
   "The sign of E with some of the GAPS put in; SIGNS of the symbols that stand for gaps."
   (let ((sign (algebra-sign-with e signs)))
-    (if (or (not (eq sign '$unknown)) (zerop depth))
+    (if (or (not (eq sign '$unknown)) (zerop depth) (minusp (decf *algebra-shifts-left*)))
         sign
         (loop for (gap . strict) in gaps
               do (dolist (x (algebra-shiftable gap e))
@@ -174,16 +201,8 @@
         (sub rest d))))
 
 (defun algebra-sign-with (e signs)
-  (algebra-sign-of-all
-   (loop for term in (if (mplusp e) (cdr e) (list e))
-         collect (algebra-term-sign term signs))))
-
-(defun algebra-sign-of-all (signs)
-  "The sign of a sum of terms with these SIGNS."
-  (cond ((subsetp signs '($zero)) '$zero)
-        ((subsetp signs '($pos $pz $zero)) (if (member '$pos signs) '$pos '$pz))
-        ((subsetp signs '($neg $nz $zero)) (if (member '$neg signs) '$neg '$nz))
-        (t '$unknown)))
+  (algebra-common-sign (if (mplusp e) (cdr e) (list e))
+                       (lambda (term) (algebra-term-sign term signs))))
 
 (defun algebra-term-sign (term signs)
   (let ((sign '$pos))
