@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Finding the time derivatives 'diff(q,t,n) in an expression, and exchanging them, all at once, for other expressions.
-;;; subst() goes through the expression once for each of them and cannot put a value for q into 'diff(q,t); this can.
+;;; Finding the time derivatives 'diff(q,t,n) in an expression, and exchanging them, all at once,
+;;; for other expressions. subst() goes through the expression once for each of them and breaks
+;;; 'diff(q,t) when it puts in a value for q.
 
 (in-package :maxima)
 
@@ -21,7 +22,7 @@
   (cons '(mlist simp) (nreverse (forms-collect-derivatives e '()))))
 
 (defun forms-exchange (e find)
-  "E with FIND's answer for every part that it knows; FIND returns the part itself where it knows nothing."
+  "E with FIND's answer for every part; FIND returns the part itself where it knows nothing."
   (let ((other (funcall find e)))
     (cond ((not (eq other e)) other)
           ((or (atom e) (forms-derivative-p e)) e)
@@ -34,7 +35,7 @@
         (simplifya (cons (remove 'simp (car e)) parts) nil))))
 
 (defun $forms_exchange (e pairs)
-  "E with the right sides of PAIRS in place of their left sides (names, subscripted names, 'diff(q,t,n)), all at once."
+  "E with the right sides of PAIRS in place of their left sides (names and 'diff(q,t,n))."
   (let ((names (make-hash-table :test #'eq)) (others '()))
     (dolist (pair (cdr pairs))
       (if (symbolp (second pair))
@@ -42,6 +43,9 @@
           (push (cons (second pair) (third pair)) others)))
     (forms-exchange e (lambda (part)
                         (cond ((symbolp part) (values (gethash part names part)))
-                              ((and others (consp part))
-                               (let ((other (assoc part others :test #'alike1))) (if other (cdr other) part)))
+                              ((and others (consp part)) (forms-exchanged part others))
                               (t part))))))
+
+(defun forms-exchanged (part pairs)
+  (let ((pair (assoc part pairs :test #'alike1)))
+    (if pair (cdr pair) part)))

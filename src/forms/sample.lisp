@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Expressions made fit for numbers: every function that is left open becomes a polynomial of its own, the same wherever it
-;;; occurs, and the derivatives and integrals of it that stand as nouns are carried out.
+;;; Expressions made fit for numbers: every function that is left open becomes a polynomial of its
+;;; own, the same wherever it occurs, and its derivatives and integrals that stand as nouns are
+;;; carried out.
 
 (in-package :maxima)
 
@@ -9,7 +10,8 @@
   (and (symbolp operator)
        (char= (char (string operator) 0) #\$)
        (not (member operator '($matrix $piecewise)))
-       (not (or (get operator 'operators) (get operator 'grad) (mget operator 'mexpr) (fboundp operator)))))
+       (not (or (get operator 'operators) (get operator 'grad)
+                (mget operator 'mexpr) (fboundp operator)))))
 
 (defun forms-sample-coefficient (name k)
   "A rational number between 1/4 and 5/4 that the NAME of a function and K decide."

@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Values of expressions at a rational point, to 512 binary digits after the point: whole numbers that count units of 2^-512.
-;;; Sums and products of large expressions cost next to nothing so; functions are left to Maxima's long floats, once for each value.
+;;; Values of expressions at a rational point, to 512 binary digits: whole numbers that count units
+;;; of 2^-512. Sums and products of large expressions cost next to nothing so; functions are left
+;;; to Maxima's long floats, once for each value.
 
 (in-package :maxima)
 
@@ -18,7 +19,7 @@
   (throw 'forms-no-value nil))
 
 (defun forms-fixed-value (e point known)
-  "The value of E as a whole number; POINT: name -> value; KNOWN: values of functions found before."
+  "The value of E; POINT: name -> value; KNOWN: values of functions found before."
   (cond ((forms-rational e) (forms-fixed (forms-rational e)))
         ((symbolp e) (or (gethash e point) (forms-constant-value e known)))
         ((atom e) (forms-function-value (list '(mplus) e) '() known))
@@ -37,7 +38,8 @@
 
 (defun forms-fixed-power (base exponent value known)
   (if (integerp exponent)
-      (let ((power (forms-fixed-product (cons (ash 1 forms-digits) (make-list (abs exponent) :initial-element base)))))
+      (let ((power (forms-fixed-product (cons (ash 1 forms-digits)
+                                              (make-list (abs exponent) :initial-element base)))))
         (cond ((plusp exponent) power)
               ((zerop power) (forms-no-value exponent))
               (t (round (ash 1 (* 2 forms-digits)) power))))
@@ -54,22 +56,22 @@
 
 (defun forms-long-float-value (e arguments)
   (let* (($fpprec 160) (fpprec (+ 2 (integer-length (expt 10 $fpprec))))
-         (one (ash 1 forms-digits))
+         (numbers (mapcar (lambda (x) ($bfloat (div x (ash 1 forms-digits)))) arguments))
          (found ($bfloat (if arguments
-                             (simplifya (cons (list (caar e)) (mapcar (lambda (x) ($bfloat (div x one))) arguments)) nil)
+                             (simplifya (cons (list (caar e)) numbers) nil)
                              (cadr e)))))
     (if ($bfloatp found)
         (forms-fixed (forms-long-float-ratio found))
         (forms-no-value e))))
 
 (defun forms-long-float-ratio (x)
-  "The exact value of a long float ((bigfloat .. precision) mantissa exponent): mantissa*2^(exponent - precision)."
+  ;; ((bigfloat .. precision) mantissa exponent) is mantissa*2^(exponent - precision)
   (* (cadr x) (expt 2 (- (caddr x) (car (last (car x)))))))
 
 (defun $forms_value (e point)
-  "The value of E, a rational number, at POINT, a list of equations name = rational number; false where it has none."
-  (let ((fixed (make-hash-table :test #'eq)))
+  "The value of E at POINT, equations name = rational number; false where it has none."
+  (let ((fixed (make-hash-table :test #'eq)) (known (make-hash-table :test #'equal)))
     (dolist (equation (cdr point))
       (setf (gethash (second equation) fixed) (forms-fixed (forms-rational (third equation)))))
-    (let ((value (catch 'forms-no-value (forms-fixed-value e fixed (make-hash-table :test #'equal)))))
+    (let ((value (catch 'forms-no-value (forms-fixed-value e fixed known))))
       (and value (div value (ash 1 forms-digits))))))

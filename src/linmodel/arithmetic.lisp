@@ -1,9 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What the recursion over bodies computes with. An arithmetic says how expressions are taken in (lift) and given back (lower),
-;;; how its elements are added and multiplied, what sine and cosine of an angle are, and how long an element is (size, 0 where
-;;; nothing is multiplied out); zero is 0 in each of them.
-;;; The recursion is written once and runs on general expressions, left as sums of products of short factors (factored), on the
-;;; canonical form, and, before that, on an arithmetic that only meets the kernels. See linmodel-compute first.
+;;; What the recursion over bodies computes with. An arithmetic says how expressions are taken in
+;;; (lift) and given back (lower), how its elements are added and multiplied, what sine and cosine
+;;; of an angle are, and how long an element is (size, 0 where nothing is multiplied out); zero is
+;;; 0 in each of them. The recursion is written once and runs on general expressions, left as sums of
+;;; products of short factors (factored), on the canonical form, and, before that, on an arithmetic
+;;; that only meets the kernels. See linmodel-compute first.
 
 (in-package :maxima)
 
@@ -12,10 +13,11 @@
 
 (defstruct linmodel-arithmetic lift lower add multiply sine cosine (size (constantly 0)))
 
-(defvar *linmodel-moderate* 20000 "Where more terms than this are foretold, the canonical form is taken only if it is asked for.")
+(defvar *linmodel-moderate* 20000
+  "Where more terms than this are foretold, the canonical form is taken only if it is asked for.")
 
 (defun linmodel-compute (form function)
-  "FUNCTION of the arithmetic for FORM: canonical, factored, or auto, which is canonical as long as that stays short."
+  "FUNCTION of the arithmetic for FORM; auto is canonical where that is short."
   (ecase form
     ($factored (funcall function (linmodel-general-arithmetic)))
     ($canonical (linmodel-compute-canonical function))
@@ -44,7 +46,7 @@
    :cosine #'linmodel-cosine))
 
 (defun linmodel-scanning-arithmetic ()
-  "Meets every kernel of the computation, so that the ring of the canonical form knows them all; computes nothing."
+  "Meets every kernel, so that the ring of the canonical form knows them all; computes nothing."
   (flet ((scan (e) (if (eql e 0) 0 (progn (algebra-scan e) 1))))
     (make-linmodel-arithmetic
      :lift #'scan

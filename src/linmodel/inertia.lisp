@@ -1,10 +1,12 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The kinetic energy as a quadratic form in the generalized velocities. Formula (1) of the source paper for a body,
-;;;     T = m v.v/2 + w.Theta.w/2 + m (v x w).c,     Theta about O_k, c from O_k to the centre of mass, all in axes of the body,
+;;; The kinetic energy as a quadratic form in the generalized velocities. Formula (1) of the source
+;;; paper for a body, all in its axes, Theta about O_k, c from O_k to the centre of mass,
+;;;     T = m v.v/2 + w.Theta.w/2 + m (v x w).c
 ;;; belongs to the product of two twists
 ;;;     (x, y) = m v_x.v_y + w_x.Theta.w_y + m ((v_x x w_y) + (v_y x w_x)).c,   T = (x, x)/2,
-;;; so that M_ij = sum over bodies of (x_i, x_j): the mass matrix by projection, without a derivative of T.
-;;; A body whose tensor is given about its centre of mass, and a point mass: (x, y) = m u_x.u_y + w_x.Theta.w_y, u = v + w x c.
+;;; so that M_ij = sum over bodies of (x_i, x_j): the mass matrix by projection, without a
+;;; derivative of T. A body whose tensor is given about its centre of mass, and a point mass:
+;;;     (x, y) = m u_x.u_y + w_x.Theta.w_y,   u = v + w x c.
 
 (in-package :maxima)
 
@@ -14,7 +16,7 @@
 (defstruct linmodel-body link mass centre joint-inertia centre-inertia)
 
 (defun linmodel-read-body (a body)
-  "BODY is [index of its link, mass, centre, inertia about O_k or false, inertia about the centre or false]."
+  "BODY is [index of its link, mass, centre, inertia about O_k, inertia about the centre]."
   (destructuring-bind (link mass centre joint-inertia centre-inertia) (cdr body)
     (make-linmodel-body :link link
                         :mass (funcall (linmodel-arithmetic-lift a) mass)
@@ -32,18 +34,18 @@
 
 (defun linmodel-product-about-joint (a body x y)
   (destructuring-bind ((wx . vx) (wy . vy)) (list x y)
-    (let ((mixed (linmodel-vector-plus a (linmodel-cross a vx wy) (linmodel-cross a vy wx))))
-      (linmodel-plus a
-                     (linmodel-times a (linmodel-body-mass body)
-                                     (linmodel-plus a (linmodel-dot a vx vy)
-                                                    (linmodel-dot a mixed (linmodel-body-centre body))))
+    (let* ((mixed (linmodel-vector-plus a (linmodel-cross a vx wy) (linmodel-cross a vy wx)))
+           (translation (linmodel-plus a (linmodel-dot a vx vy)
+                                       (linmodel-dot a mixed (linmodel-body-centre body)))))
+      (linmodel-plus a (linmodel-times a (linmodel-body-mass body) translation)
                      (linmodel-rotation-product a (linmodel-body-joint-inertia body) wx wy)))))
 
 (defun linmodel-product-about-centre (a body x y)
-  (linmodel-plus a
-                 (linmodel-times a (linmodel-body-mass body)
-                                 (linmodel-dot a (linmodel-centre-velocity a body x) (linmodel-centre-velocity a body y)))
-                 (linmodel-rotation-product a (linmodel-body-centre-inertia body) (car x) (car y))))
+  (let ((translation (linmodel-dot a (linmodel-centre-velocity a body x)
+                                   (linmodel-centre-velocity a body y)))
+        (tensor (linmodel-body-centre-inertia body)))
+    (linmodel-plus a (linmodel-times a (linmodel-body-mass body) translation)
+                   (linmodel-rotation-product a tensor (car x) (car y)))))
 
 (defun linmodel-rotation-product (a tensor wx wy)
   (if tensor (linmodel-dot a wx (linmodel-matrix-times a tensor wy)) 0))
@@ -74,13 +76,14 @@
           do (loop for j from i below n
                    for w in (nthcdr i velocities)
                    for product = (linmodel-times a (aref form i j) (linmodel-times a v w))
-                   do (setq sum (linmodel-plus a sum (if (= i j) (linmodel-times a half product) product)))))
+                   do (when (= i j) (setq product (linmodel-times a half product)))
+                      (setq sum (linmodel-plus a sum product))))
     sum))
 
 ;;; For Maxima.
 
 (defun $linmodel_inertia_form (links bodies n form)
-  "The symmetric matrix of (x_i, x_j), i, j = 0 .. N: T = sum (x_i, x_j) q_i' q_j'/2 with q_0' = 1."
+  "The matrix of (x_i, x_j), i, j = 0 .. N: T = sum (x_i, x_j) q_i' q_j'/2 with q_0' = 1."
   (linmodel-compute
    form
    (lambda (a)
@@ -88,7 +91,8 @@
        (cons '($matrix simp)
              (loop for i from 0 to n
                    collect (linmodel-lower-vector
-                            a (loop for j from 0 to n collect (aref products (min i j) (max i j))))))))))
+                            a (loop for j from 0 to n
+                                    collect (aref products (min i j) (max i j))))))))))
 
 (defun $linmodel_energy (links bodies velocities form)
   "[T, true where it has terms of less than the second degree in the VELOCITIES [1, v_1, ..]]."

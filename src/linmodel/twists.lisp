@@ -1,10 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Kinematics in body axes. The velocity of a link is a sum over the generalized velocities, sum x_i q_i' + x_0, of twists
-;;; x = (w . v): w of the angular velocity, v of the velocity of O_k, both in the link's own axes (v_i, w_i are the partial
-;;; velocities). From parent j to link k, r the joint and u its relative velocity, in axes j:
-;;;     v := v + w x r + u,   then for each simple rotation about axis s by psi:  w, v := turned,  w_s := w_s + psi'.
-;;; A link comes as the list [name, index of the parent, turns, joint, rows of u], a turn as [axis, angle, row of psi'];
-;;; a row [c_0, c_1, .., c_n] means c_0 + sum c_i q_i'. See linmodel-link-twists first.
+;;; Kinematics in body axes. The velocity of a link is a sum over the generalized velocities,
+;;; sum x_i q_i' + x_0, of twists x = (w . v): w of the angular velocity, v of the velocity of O_k,
+;;; both in the link's own axes (v_i, w_i are the partial velocities). From parent j to link k, r
+;;; the joint and u its relative velocity, in axes j:
+;;;     v := v + w x r + u,   then for each simple rotation about axis s by psi:
+;;;     w, v := turned,   w_s := w_s + psi'.
+;;; A link comes as the list [name, index of the parent, turns, joint, rows of u], a turn as [axis,
+;;; angle, row of psi']; a row [c_0, c_1, .., c_n] means c_0 + sum c_i q_i'.
+;;; See linmodel-link-twists first.
 
 (in-package :maxima)
 
@@ -21,17 +24,24 @@
                         :row (linmodel-lift-vector a row))))
 
 (defun linmodel-link-parent (link) (third link))
-(defun linmodel-link-turns (a link) (mapcar (lambda (turn) (linmodel-read-turn a turn)) (cdr (fourth link))))
+
+(defun linmodel-link-turns (a link)
+  (mapcar (lambda (turn) (linmodel-read-turn a turn)) (cdr (fourth link))))
+
 (defun linmodel-link-joint (a link) (linmodel-lift-vector a (fifth link)))
-(defun linmodel-link-rows (a link) (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr (sixth link))))
+
+(defun linmodel-link-rows (a link)
+  (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr (sixth link))))
 
 (defun linmodel-turned (a turn vector)
-  "The components of VECTOR in axes turned right-handed about one of them: x := c*x + s*y, y := -s*x + c*y."
+  "The components of VECTOR in axes turned about one of them: x := c*x + s*y, y := c*y - s*x."
   (let* ((axis (linmodel-turn-axis turn)) (i (mod axis 3)) (j (mod (1+ axis) 3))
          (sine (linmodel-turn-sine turn)) (cosine (linmodel-turn-cosine turn))
          (x (nth i vector)) (y (nth j vector)) (components (copy-list vector)))
-    (setf (nth i components) (linmodel-plus a (linmodel-times a cosine x) (linmodel-times a sine y))
-          (nth j components) (linmodel-plus a (linmodel-minus a (linmodel-times a sine x)) (linmodel-times a cosine y)))
+    (flet ((times (u v) (linmodel-times a u v)))
+      (setf (nth i components) (linmodel-plus a (times cosine x) (times sine y))
+            (nth j components) (linmodel-plus a (times cosine y)
+                                              (linmodel-minus a (times sine x)))))
     components))
 
 (defun linmodel-turned-by-all (a turns vector)
@@ -52,16 +62,19 @@
 
 (defun linmodel-link-twists (a link parent-twists n)
   "The twists of LINK that are not zero: a list of (i w . v), i from 0 to N."
-  (let ((turns (linmodel-link-turns a link)) (joint (linmodel-link-joint a link)) (rows (linmodel-link-rows a link)))
+  (let ((turns (linmodel-link-turns a link))
+        (joint (linmodel-link-joint a link))
+        (rows (linmodel-link-rows a link)))
     (linmodel-guarded-twists
      a
      (loop for i from 0 to n
-           for twist = (linmodel-carried-twist a i (linmodel-twist-of i parent-twists) turns joint rows)
+           for carried = (linmodel-twist-of i parent-twists)
+           for twist = (linmodel-carried-twist a i carried turns joint rows)
            unless (linmodel-twist-zero-p twist)
              collect (cons i twist)))))
 
 (defun linmodel-guarded-twists (a twists)
-  "TWISTS, unless their products would be too many. (Of the products of terms about one in four is left: spatial chains.)"
+  "TWISTS, unless their products would be too many: about a quarter of the products is left."
   (let ((terms 0))
     (loop for (nil w . v) in twists
           do (dolist (x (append w v)) (incf terms (funcall (linmodel-arithmetic-size a) x))))
@@ -70,22 +83,24 @@
 
 (defun linmodel-carried-twist (a i twist turns joint rows)
   (destructuring-bind (w . v) twist
-    (setq v (linmodel-vector-plus a v (linmodel-vector-plus a (linmodel-cross a w joint)
-                                                            (mapcar (lambda (row) (nth i row)) rows))))
+    (setq v (linmodel-vector-plus a v (linmodel-cross a w joint))
+          v (linmodel-vector-plus a v (mapcar (lambda (row) (nth i row)) rows)))
     (dolist (turn turns (cons w v))
       (setq w (linmodel-spinning a turn i (linmodel-turned a turn w))
             v (linmodel-turned a turn v)))))
 
 (defun linmodel-over-links (links function)
-  "A list, for each link the value of FUNCTION of the link and of its parent's value (nil for the fixed axes)."
+  "For each link the value of FUNCTION of the link and of its parent's value (nil: fixed axes)."
   (let ((found (make-array (1+ (length links)) :initial-element nil)))
     (loop for link in links
           for k from 1
-          do (setf (aref found k) (funcall function link (aref found (linmodel-link-parent link)))))
+          for parent = (aref found (linmodel-link-parent link))
+          do (setf (aref found k) (funcall function link parent)))
     (cdr (coerce found 'list))))
 
 (defun linmodel-all-twists (a links n)
-  (linmodel-over-links links (lambda (link parent-twists) (linmodel-link-twists a link parent-twists n))))
+  (linmodel-over-links links
+                       (lambda (link parent) (linmodel-link-twists a link parent n))))
 
 ;;; For Maxima.
 
@@ -94,10 +109,10 @@
   (linmodel-compute
    form
    (lambda (a)
-     (cons '(mlist simp)
-           (mapcar (lambda (twists)
-                     (cons '(mlist simp) (mapcar (lambda (twist) (linmodel-lower-twist a twist)) twists)))
-                   (linmodel-all-twists a (cdr links) n))))))
+     (flet ((lower (twist) (linmodel-lower-twist a twist)))
+       (cons '(mlist simp)
+             (mapcar (lambda (twists) (cons '(mlist simp) (mapcar #'lower twists)))
+                     (linmodel-all-twists a (cdr links) n)))))))
 
 (defun linmodel-lower-twist (a twist)
   (destructuring-bind (i w . v) twist
@@ -111,29 +126,32 @@
      (let ((turns (linmodel-link-turns a link)))
        (cons '($matrix simp)
              (loop for axis in '((1 0 0) (0 1 0) (0 0 1))
-                   collect (linmodel-lower-vector
-                            a (linmodel-turned-by-all a turns (mapcar (linmodel-arithmetic-lift a) axis)))))))))
+                   for lifted = (mapcar (linmodel-arithmetic-lift a) axis)
+                   collect (linmodel-lower-vector a (linmodel-turned-by-all a turns lifted))))))))
 
 (defun $linmodel_weights (links bodies vector form)
-  "The sum over the bodies of mass times VECTOR.r, r the radius vector of the centre of mass, VECTOR fixed."
+  "The sum over the bodies of mass times VECTOR.r_C, VECTOR being given in fixed axes."
   (linmodel-compute
    form
    (lambda (a)
-     (let ((carried (linmodel-over-links
-                     (cdr links)
-                     (lambda (link parent)
-                       (linmodel-carried-vector a link (or parent (cons (linmodel-lift-vector a vector) 0))))))
-           (sum 0))
+     (let ((carried (linmodel-carried-vectors a links vector)) (sum 0))
        (dolist (body (cdr bodies) (funcall (linmodel-arithmetic-lower a) sum))
-         (setq sum (linmodel-plus a sum (linmodel-weight a body (nth (1- (second body)) carried)))))))))
+         (let ((weight (linmodel-weight a body (nth (1- (second body)) carried))))
+           (setq sum (linmodel-plus a sum weight))))))))
+
+(defun linmodel-carried-vectors (a links vector)
+  (let ((start (cons (linmodel-lift-vector a vector) 0)))
+    (linmodel-over-links (cdr links)
+                         (lambda (link pair) (linmodel-carried-vector a link (or pair start))))))
 
 (defun linmodel-carried-vector (a link pair)
-  "From (vector . vector.r_O) of the parent the same of LINK: the fixed vector in its axes, r_O the radius vector of its origin."
+  "From (vector . vector.r_O) of the parent the same of LINK, the vector in its axes."
   (destructuring-bind (vector . product) pair
     (cons (linmodel-turned-by-all a (linmodel-link-turns a link) vector)
           (linmodel-plus a product (linmodel-dot a (linmodel-link-joint a link) vector)))))
 
 (defun linmodel-weight (a body pair)
   (destructuring-bind (vector . product) pair
-    (linmodel-times a (linmodel-lift a (third body))
-                    (linmodel-plus a product (linmodel-dot a vector (linmodel-lift-vector a (fourth body)))))))
+    (let ((centre (linmodel-lift-vector a (fourth body))))
+      (linmodel-times a (linmodel-lift a (third body))
+                      (linmodel-plus a product (linmodel-dot a vector centre))))))
