@@ -146,9 +146,36 @@ it should have."
   "ITEMS, texts, in brackets: on one line where they fit, else a line for each, so that a person
 can read them."
   (let ((line (format nil "~a~{~a~^, ~}~a" open items close)))
-    (if (<= (+ indent (length line)) *archive-result-width*)
+    (if (and (<= (+ indent (length line)) *archive-result-width*) (notany (lambda (item) (find #\Newline item)) items))
         line
         (format nil (format nil "~~a~~{~~a~~^,~~%~~~d@t~~}~~a" (+ indent 1)) open items close))))
+
+(defun archive-break-p (text position)
+  "Whether a line may end before POSITION of TEXT: before a sign between two terms."
+  (let ((before (char text (1- position))))
+    (and (find (char text position) "+-")
+         (or (alphanumericp before) (find before ")]'_"))
+         (not (and (char-equal before #\e) (> position 1) (digit-char-p (char text (- position 2))))))))
+
+(defun archive-line-end (text start room)
+  "Where the line of TEXT from START ends: at the last break that leaves it within ROOM letters, or at the first."
+  (let ((end nil))
+    (loop for position from (1+ start) below (length text)
+          until (and end (> (- position start) room))
+          when (archive-break-p text position) do (setq end position)
+          finally (return (and end (> (- (length text) start) room) end)))))
+
+(defun archive-folded (text indent)
+  "TEXT, a long sum, on several lines that begin in column INDENT; a text with strings is left as it is."
+  (if (find #\" text)
+      text
+      (with-output-to-string (out)
+        (loop with start = 0
+              for end = (archive-line-end text start (- *archive-result-width* indent))
+              do (write-string text out :start start :end end)
+              while end
+              do (format out "~%~v@t" indent)
+                 (setq start end)))))
 
 (defun archive-value-text (value indent doubles)
   "VALUE as text that begins in column INDENT and reads back; with DOUBLES its decimals are
@@ -158,7 +185,7 @@ doubles."
                        (mapcar (lambda (item) (archive-value-text item (1+ indent) doubles))
                                (cdr value))
                        "]" indent)
-      (archive-settled-text value :doubles doubles)))
+      (archive-folded (archive-settled-text value :doubles doubles) indent)))
 
 (defun archive-part (key value doubles)
   (cons key (archive-value-text value (+ 3 (length key)) doubles)))
