@@ -3,15 +3,16 @@
 ;;; Intervals that surely hold a number: [lo, hi]/2^bits with integers lo <= hi, rounded outwards.
 ;;; Constants with roots, %pi, exponentials, logarithms and angles are enclosed; more bits make the
 ;;; interval shorter until the sign separates.  A zero is never proved here, only refused.
+;;; algebra-i makes an interval of a rational; algebra-i+, -, *, / are the arithmetic.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/nouns"))
 
-(defvar *interval-bits* 64)
-(defvar *interval-values* nil "values of symbols and open functions: (expression . rational), ..")
-(defvar *interval-value-of* nil "function that gives a symbol its value; nil: constants only")
+(defvar *algebra-interval-bits* 64)
+(defvar *algebra-point* nil "values of symbols and open functions: (expression . rational), ..")
+(defvar *algebra-coordinate* nil "function that gives a symbol its value; nil: constants only")
 
 (defun algebra-interval-sign (e)
   "1 or -1 if the constant E is proved positive or negative, else nil."
@@ -22,122 +23,121 @@
         thereis (algebra-interval-sign-at e bits)))
 
 (defun algebra-interval-sign-at (e bits)
-  (let* ((*interval-bits* bits)
-         (interval (catch 'no-interval (interval-of e))))
+  (let* ((*algebra-interval-bits* bits)
+         (interval (catch 'no-interval (algebra-i-of e))))
     (cond ((null interval) nil)
           ((plusp (car interval)) 1)
           ((minusp (cdr interval)) -1))))
 
 ;;; Expressions.
 
-(defun interval-of (e)
-  (cond ((rationalp e) (interval-rational e))
-        ((floatp e) (interval-rational (algebra-rational-number e)))
-        ((eq e '$%pi) (interval-pi))
-        ((eq e '$%e) (interval-exp (interval-rational 1)))
-        ((eq e '$%phi) (interval-of '((mtimes) ((rat) 1 2) ((mplus) 1 ((mexpt) 5 ((rat) 1 2))))))
-        ((symbolp e) (interval-unknown e))
+(defun algebra-i-of (e)
+  (cond ((rationalp e) (algebra-i e))
+        ((floatp e) (algebra-i (algebra-rational-number e)))
+        ((eq e '$%pi) (algebra-i-pi))
+        ((eq e '$%e) (algebra-i-exp (algebra-i 1)))
+        ((eq e '$%phi) (algebra-i-of '((mtimes) ((rat) 1 2) ((mplus) 1 ((mexpt) 5 ((rat) 1 2))))))
+        ((symbolp e) (algebra-i-unknown e))
         ((atom e) (throw 'no-interval nil))
         (t (case (caar e)
-             (rat (interval-rational (/ (cadr e) (caddr e))))
-             (bigfloat (interval-of ($rationalize e)))
-             (mplus (reduce #'interval-add (mapcar #'interval-of (cdr e))))
-             (mtimes (reduce #'interval-multiply (mapcar #'interval-of (cdr e))))
-             (mexpt (interval-power (cadr e) (caddr e)))
-             (t (interval-function e))))))
+             (rat (algebra-i (/ (cadr e) (caddr e))))
+             (bigfloat (algebra-i-of ($rationalize e)))
+             (mplus (reduce #'algebra-i+ (mapcar #'algebra-i-of (cdr e))))
+             (mtimes (reduce #'algebra-i* (mapcar #'algebra-i-of (cdr e))))
+             (mexpt (algebra-i-general-power (cadr e) (caddr e)))
+             (t (algebra-i-function e))))))
 
-(defun interval-function (e)
+(defun algebra-i-function (e)
   (let ((x (and (cdr e) (null (cddr e)) (cadr e))))
     (case (and x (caar e))
-      (%sin (cdr (interval-angle (interval-of x))))
-      (%cos (car (interval-angle (interval-of x))))
-      (%tan (interval-tangent (interval-angle (interval-of x))))
-      (%cot (interval-divide (interval-rational 1)
-                             (interval-tangent (interval-angle (interval-of x)))))
-      (%sec (interval-divide (interval-rational 1) (car (interval-angle (interval-of x)))))
-      (%csc (interval-divide (interval-rational 1) (cdr (interval-angle (interval-of x)))))
-      (%sinh (car (interval-hyperbolic (interval-of x))))
-      (%cosh (cdr (interval-hyperbolic (interval-of x))))
-      (%tanh (let ((pair (interval-hyperbolic (interval-of x))))
-               (interval-divide (car pair) (cdr pair))))
-      (%log (interval-log (interval-of x)))
-      (%atan (interval-atan (interval-of x)))
-      (%asin (interval-asin (interval-of x)))
-      (%acos (interval-subtract (interval-multiply (interval-rational 1/2) (interval-pi))
-                                (interval-asin (interval-of x))))
-      (mabs (interval-abs (interval-of x)))
-      (t (interval-unknown e)))))
+      (%sin (cdr (algebra-i-angle (algebra-i-of x))))
+      (%cos (car (algebra-i-angle (algebra-i-of x))))
+      (%tan (algebra-i-tangent (algebra-i-angle (algebra-i-of x))))
+      (%cot (algebra-i/ (algebra-i 1) (algebra-i-tangent (algebra-i-angle (algebra-i-of x)))))
+      (%sec (algebra-i/ (algebra-i 1) (car (algebra-i-angle (algebra-i-of x)))))
+      (%csc (algebra-i/ (algebra-i 1) (cdr (algebra-i-angle (algebra-i-of x)))))
+      (%sinh (car (algebra-i-hyperbolic (algebra-i-of x))))
+      (%cosh (cdr (algebra-i-hyperbolic (algebra-i-of x))))
+      (%tanh (let ((pair (algebra-i-hyperbolic (algebra-i-of x))))
+               (algebra-i/ (car pair) (cdr pair))))
+      (%log (algebra-i-log (algebra-i-of x)))
+      (%atan (algebra-i-atan (algebra-i-of x)))
+      (%asin (algebra-i-asin (algebra-i-of x)))
+      (%acos (algebra-i- (algebra-i* (algebra-i 1/2) (algebra-i-pi))
+                         (algebra-i-asin (algebra-i-of x))))
+      (mabs (algebra-i-abs (algebra-i-of x)))
+      (t (algebra-i-unknown e)))))
 
-(defun interval-tangent (angle)
-  (interval-divide (cdr angle) (car angle)))
+(defun algebra-i-tangent (angle)
+  (algebra-i/ (cdr angle) (car angle)))
 
-(defun interval-unknown (e)
+(defun algebra-i-unknown (e)
   "The value given to a symbol or an open function at the point tried."
-  (unless (and *interval-value-of*
+  (unless (and *algebra-coordinate*
                (or (and (symbolp e) (not ($constantp e)))
                    (and (consp e) (algebra-open-p e))))
     (throw 'no-interval nil))
   (let ((key (if (atom e) e (algebra-canonical-noun e))))
-    (interval-rational
-     (cdr (or (assoc key *interval-values* :test #'alike1)
-              (car (push (cons key (funcall *interval-value-of*)) *interval-values*)))))))
+    (algebra-i
+     (cdr (or (assoc key *algebra-point* :test #'alike1)
+              (car (push (cons key (funcall *algebra-coordinate*)) *algebra-point*)))))))
 
 ;;; Arithmetic.
 
-(defun interval-unit () (ash 1 *interval-bits*))
+(defun algebra-i-unit () (ash 1 *algebra-interval-bits*))
 
-(defun interval-rational (r)
-  (let ((scaled (* r (interval-unit))))
+(defun algebra-i (r)
+  (let ((scaled (* r (algebra-i-unit))))
     (cons (floor scaled) (ceiling scaled))))
 
-(defun interval-add (a b)
+(defun algebra-i+ (a b)
   (cons (+ (car a) (car b)) (+ (cdr a) (cdr b))))
 
-(defun interval-negate (a)
+(defun algebra-i-minus (a)
   (cons (- (cdr a)) (- (car a))))
 
-(defun interval-subtract (a b)
-  (interval-add a (interval-negate b)))
+(defun algebra-i- (a b)
+  (algebra-i+ a (algebra-i-minus b)))
 
-(defun interval-multiply (a b)
+(defun algebra-i* (a b)
   (let ((products (list (* (car a) (car b)) (* (car a) (cdr b))
                         (* (cdr a) (car b)) (* (cdr a) (cdr b))))
-        (shift (- *interval-bits*)))
+        (shift (- *algebra-interval-bits*)))
     (cons (ash (reduce #'min products) shift)
           (- (ash (- (reduce #'max products)) shift)))))
 
-(defun interval-divide (a b)
+(defun algebra-i/ (a b)
   (unless (or (plusp (car b)) (minusp (cdr b))) (throw 'no-interval nil))
   (let ((quotients (loop for x in (list (car a) (cdr a))
                          append (loop for y in (list (car b) (cdr b))
-                                      collect (/ (* x (interval-unit)) y)))))
+                                      collect (/ (* x (algebra-i-unit)) y)))))
     (cons (floor (reduce #'min quotients)) (ceiling (reduce #'max quotients)))))
 
-(defun interval-abs (a)
-  (cond ((minusp (cdr a)) (interval-negate a))
+(defun algebra-i-abs (a)
+  (cond ((minusp (cdr a)) (algebra-i-minus a))
         ((plusp (car a)) a)
         (t (cons 0 (max (- (car a)) (cdr a))))))
 
-(defun interval-integer-power (a n)
-  (cond ((minusp n) (interval-divide (interval-rational 1) (interval-integer-power a (- n))))
-        ((zerop n) (interval-rational 1))
-        ((evenp n) (let ((half (interval-integer-power (interval-abs a) (floor n 2))))
-                     (interval-multiply half half)))
-        (t (interval-multiply a (interval-integer-power a (1- n))))))
+(defun algebra-i-power (a n)
+  (cond ((minusp n) (algebra-i/ (algebra-i 1) (algebra-i-power a (- n))))
+        ((zerop n) (algebra-i 1))
+        ((evenp n) (let ((half (algebra-i-power (algebra-i-abs a) (floor n 2))))
+                     (algebra-i* half half)))
+        (t (algebra-i* a (algebra-i-power a (1- n))))))
 
-(defun interval-power (base exponent)
+(defun algebra-i-general-power (base exponent)
   (let ((number (algebra-rational-number exponent)))
-    (cond ((eq base '$%e) (interval-exp (interval-of exponent)))
+    (cond ((eq base '$%e) (algebra-i-exp (algebra-i-of exponent)))
           ((and number (> (abs number) 10000)) (throw 'no-interval nil))
-          ((integerp number) (interval-integer-power (interval-of base) number))
-          (number (interval-integer-power (interval-root (interval-of base) (denominator number))
-                                          (numerator number)))
-          (t (interval-exp (interval-multiply (interval-of exponent)
-                                              (interval-log (interval-of base))))))))
+          ((integerp number) (algebra-i-power (algebra-i-of base) number))
+          (number (algebra-i-power (algebra-i-root (algebra-i-of base) (denominator number))
+                                   (numerator number)))
+          (t (algebra-i-exp (algebra-i* (algebra-i-of exponent)
+                                        (algebra-i-log (algebra-i-of base))))))))
 
-(defun interval-root (a n)
+(defun algebra-i-root (a n)
   (when (minusp (car a)) (throw 'no-interval nil))
-  (let ((scale (ash 1 (* (1- n) *interval-bits*))))
+  (let ((scale (ash 1 (* (1- n) *algebra-interval-bits*))))
     (cons (algebra-integer-root (* (car a) scale) n)
           (1+ (algebra-integer-root (* (cdr a) scale) n)))))
 
@@ -153,133 +153,129 @@
 
 ;;; Series.  Each is summed in intervals; the remainder is below the last term kept.
 
-(defun interval-series (first ratio-of)
+(defun algebra-i-series (first ratio-of)
   "FIRST and the terms that follow by RATIO-OF (an interval for each place), halving at least."
   (let ((sum first) (term first))
     (loop for k from 1
-          do (setq term (interval-multiply term (funcall ratio-of k)))
-             (setq sum (interval-add sum term))
+          do (setq term (algebra-i* term (funcall ratio-of k)))
+             (setq sum (algebra-i+ sum term))
           until (and (<= -2 (car term)) (<= (cdr term) 2)))
     (cons (- (car sum) 8) (+ (cdr sum) 8))))
 
-(defun interval-scale-down (x k)
+(defun algebra-i-scale-up (x k)
+  (cons (ash (car x) k) (ash (cdr x) k)))
+
+(defun algebra-i-scale-down (x k)
   (cons (ash (car x) (- k)) (- (ash (- (cdr x)) (- k)))))
 
-(defun interval-halvings (x)
+(defun algebra-i-halvings (x)
   "How often X is halved until it is below 1/4."
-  (let ((size (- (max (integer-length (car x)) (integer-length (cdr x))) *interval-bits*)))
+  (let ((size (- (max (integer-length (car x)) (integer-length (cdr x))) *algebra-interval-bits*)))
     (when (> size 20) (throw 'no-interval nil))
     (max 0 (+ size 2))))
 
-(defmacro with-guard-bits ((count &rest intervals) &body body)
+(defmacro algebra-with-guard-bits ((count &rest intervals) &body body)
   "BODY with more bits for the INTERVALS, its interval rounded back."
   `(let ((guard ,count))
-     (interval-scale-down
-      (let ((*interval-bits* (+ *interval-bits* guard))
+     (algebra-i-scale-down
+      (let ((*algebra-interval-bits* (+ *algebra-interval-bits* guard))
             ,@(loop for x in intervals
-                    collect `(,x (cons (ash (car ,x) guard) (ash (cdr ,x) guard)))))
+                    collect `(,x (algebra-i-scale-up ,x guard))))
         ,@body)
       guard)))
 
-(defun interval-exp (x)
-  (let ((k (interval-halvings x)))
-    (with-guard-bits ((+ 16 (* 2 k)) x)
-      (let* ((small (interval-scale-down x k))
-             (power (interval-series (interval-rational 1)
-                                     (lambda (n) (interval-multiply
-                                                  small (interval-rational (/ 1 n)))))))
-        (loop repeat k do (setq power (interval-multiply power power)))
+(defun algebra-i-exp (x)
+  (let ((k (algebra-i-halvings x)))
+    (algebra-with-guard-bits ((+ 16 (* 2 k)) x)
+      (let* ((small (algebra-i-scale-down x k))
+             (power (algebra-i-series (algebra-i 1)
+                                      (lambda (n) (algebra-i* small (algebra-i (/ 1 n)))))))
+        (loop repeat k do (setq power (algebra-i* power power)))
         power))))
 
-(defun interval-hyperbolic (x)
+(defun algebra-i-hyperbolic (x)
   "(sinh . cosh)"
-  (let* ((growing (interval-exp x))
-         (falling (interval-divide (interval-rational 1) growing))
-         (half (interval-rational 1/2)))
-    (cons (interval-multiply half (interval-subtract growing falling))
-          (interval-multiply half (interval-add growing falling)))))
+  (let* ((growing (algebra-i-exp x))
+         (falling (algebra-i/ (algebra-i 1) growing))
+         (half (algebra-i 1/2)))
+    (cons (algebra-i* half (algebra-i- growing falling))
+          (algebra-i* half (algebra-i+ growing falling)))))
 
-(defun interval-angle (x)
+(defun algebra-i-angle (x)
   "(cosine . sine) by halving the angle, the series, and doubling."
-  (let ((k (interval-halvings x)))
-    (let (cosine sine)
-      (setq cosine (with-guard-bits ((+ 16 (* 3 k)) x)
-                     (car (interval-doubled (interval-small-angle (interval-scale-down x k)) k)))
-            sine (with-guard-bits ((+ 16 (* 3 k)) x)
-                   (cdr (interval-doubled (interval-small-angle (interval-scale-down x k)) k))))
-      (cons cosine sine))))
+  (let* ((k (algebra-i-halvings x))
+         (guard (+ 16 (* 3 k)))
+         (angle (let ((*algebra-interval-bits* (+ *algebra-interval-bits* guard)))
+                  (algebra-i-doubled (algebra-i-small-angle
+                                      (algebra-i-scale-down (algebra-i-scale-up x guard) k))
+                                     k))))
+    (cons (algebra-i-scale-down (car angle) guard) (algebra-i-scale-down (cdr angle) guard))))
 
-(defun interval-small-angle (x)
-  (let ((minus-square (interval-negate (interval-multiply x x))))
+(defun algebra-i-small-angle (x)
+  (let ((minus-square (algebra-i-minus (algebra-i* x x))))
     (flet ((series (first shift)
-             (interval-series first
-                              (lambda (n)
-                                (interval-multiply
-                                 minus-square
-                                 (interval-rational (/ 1 (* (+ n n shift) (+ n n shift -1)))))))))
-      (cons (series (interval-rational 1) 0) (series x 1)))))
+             (algebra-i-series
+              first
+              (lambda (n)
+                (algebra-i* minus-square
+                            (algebra-i (/ 1 (* (+ n n shift) (+ n n shift -1)))))))))
+      (cons (series (algebra-i 1) 0) (series x 1)))))
 
-(defun interval-doubled (angle k)
+(defun algebra-i-doubled (angle k)
   (loop repeat k
         do (destructuring-bind (c . s) angle
-             (setq angle (cons (interval-subtract (interval-rational 1)
-                                                  (interval-multiply (interval-rational 2)
-                                                                     (interval-multiply s s)))
-                               (interval-multiply (interval-rational 2)
-                                                  (interval-multiply s c))))))
+             (setq angle
+                   (cons (algebra-i- (algebra-i 1) (algebra-i* (algebra-i 2) (algebra-i* s s)))
+                         (algebra-i* (algebra-i 2) (algebra-i* s c))))))
   angle)
 
-(defun interval-odd-series (z sign)
+(defun algebra-i-odd-series (z sign)
   "z + sign*z^3/3 + z^5/5 + ..: atan for sign -1, artanh for 1; |z| below 1/2."
-  (when (> (* 2 (max (abs (car z)) (abs (cdr z)))) (interval-unit)) (throw 'no-interval nil))
-  (let* ((square (interval-multiply (interval-rational sign) (interval-multiply z z)))
+  (when (> (* 2 (max (abs (car z)) (abs (cdr z)))) (algebra-i-unit)) (throw 'no-interval nil))
+  (let* ((square (algebra-i* (algebra-i sign) (algebra-i* z z)))
          (power z)
          (sum z))
     (loop for n from 3 by 2
-          do (setq power (interval-multiply power square)
-                   sum (interval-add sum (interval-multiply power (interval-rational (/ 1 n)))))
+          do (setq power (algebra-i* power square)
+                   sum (algebra-i+ sum (algebra-i* power (algebra-i (/ 1 n)))))
           until (and (<= -2 (car power)) (<= (cdr power) 2)))
     (cons (- (car sum) 8) (+ (cdr sum) 8))))
 
-(defun interval-pi ()
+(defun algebra-i-pi ()
   "Machin: 16*atan(1/5) - 4*atan(1/239)."
-  (with-guard-bits (16)
-    (interval-subtract
-     (interval-multiply (interval-rational 16) (interval-odd-series (interval-rational 1/5) -1))
-     (interval-multiply (interval-rational 4) (interval-odd-series (interval-rational 1/239) -1)))))
+  (algebra-with-guard-bits (16)
+    (algebra-i-
+     (algebra-i* (algebra-i 16) (algebra-i-odd-series (algebra-i 1/5) -1))
+     (algebra-i* (algebra-i 4) (algebra-i-odd-series (algebra-i 1/239) -1)))))
 
-(defun interval-atan (x)
+(defun algebra-i-atan (x)
   "atan(x) = 2*atan(x/(1+sqrt(1+x^2))), three times."
-  (with-guard-bits (24 x)
-    (let ((one (interval-rational 1)))
+  (algebra-with-guard-bits (24 x)
+    (let ((one (algebra-i 1)))
       (loop repeat 3
-            do (setq x (interval-divide
-                        x (interval-add one (interval-root
-                                             (interval-add one (interval-integer-power x 2)) 2)))))
-      (interval-multiply (interval-rational 8) (interval-odd-series x -1)))))
+            do (setq x (algebra-i/ x (algebra-i+ one (algebra-i-root
+                                                      (algebra-i+ one (algebra-i-power x 2))
+                                                      2)))))
+      (algebra-i* (algebra-i 8) (algebra-i-odd-series x -1)))))
 
-(defun interval-asin (x)
-  (let ((cosine (interval-root (interval-subtract (interval-rational 1)
-                                                  (interval-integer-power x 2))
-                               2)))
-    (interval-atan (interval-divide x cosine))))
+(defun algebra-i-asin (x)
+  (let ((cosine (algebra-i-root (algebra-i- (algebra-i 1) (algebra-i-power x 2)) 2)))
+    (algebra-i-atan (algebra-i/ x cosine))))
 
-(defun interval-log (x)
+(defun algebra-i-log (x)
   "log(m*2^k) = k*log(2) + 2*artanh((m-1)/(m+1)) with m near 1."
   (unless (plusp (car x)) (throw 'no-interval nil))
-  (with-guard-bits (32 x)
-    (let* ((k (- (integer-length (car x)) *interval-bits*))
-           (m (interval-multiply x (interval-rational (expt 2 (- k)))))
-           (one (interval-rational 1)))
+  (algebra-with-guard-bits (32 x)
+    (let* ((k (- (integer-length (car x)) *algebra-interval-bits*))
+           (m (algebra-i* x (algebra-i (expt 2 (- k)))))
+           (one (algebra-i 1)))
       (flet ((twice-artanh (m)
-               (interval-multiply (interval-rational 2)
-                                  (interval-odd-series
-                                   (interval-divide (interval-subtract m one)
-                                                    (interval-add m one))
-                                   1))))
-        (interval-add (interval-multiply (interval-rational k)
-                                         (twice-artanh (interval-rational 2)))
-                      (twice-artanh m))))))
+               (algebra-i* (algebra-i 2)
+                           (algebra-i-odd-series (algebra-i/ (algebra-i- m one)
+                                                             (algebra-i+ m one))
+                                                 1))))
+        (algebra-i+ (algebra-i* (algebra-i k) (twice-artanh (algebra-i 2)))
+                    (twice-artanh m))))))
 
 ;;; Points with rational coordinates at which the facts of the context hold.
 
@@ -290,8 +286,8 @@
 
 (defun algebra-nonzero-at-p (e attempt)
   (let* ((seed (* attempt 7919))
-         (*interval-values* nil)
-         (*interval-value-of*
+         (*algebra-point* nil)
+         (*algebra-coordinate*
            (lambda ()
              (setq seed (mod (+ (* seed 1103515245) 12345) 2147483648))
              (algebra-point-coordinate (floor seed 65536) attempt))))

@@ -95,8 +95,8 @@
   "|E| is proved below BOUND."
   (loop for bits in (let ((needed (+ 80 (integer-length (ceiling (/ 1 bound))))))
                       (list needed (* 2 needed) (* 4 needed)))
-        thereis (let* ((*interval-bits* bits)
-                       (interval (catch 'no-interval (interval-of e))))
+        thereis (let* ((*algebra-interval-bits* bits)
+                       (interval (catch 'no-interval (algebra-i-of e))))
                   (and interval
                        (< (max (abs (car interval)) (abs (cdr interval)))
-                          (* bound (interval-unit)))))))
+                          (* bound (algebra-i-unit)))))))

@@ -22,7 +22,7 @@
     (t (if (algebra-nonzero-somewhere-p e) nil '$unknown))))
 
 (defun algebra-remainder-test (e)
-  "zero, not-zero, or dependent: not zero as a polynomial in kernels that may be bound."
+  "zero; not-zero; dependent: no zero polynomial, but its kernels may be bound; too-large."
   (with-algebra-ring
     (let* ((*algebra-exponential-form* t)
            (*algebra-roots-apart* t)
@@ -30,7 +30,9 @@
       (algebra-order-kernels)
       (if (null (algebra-sampled-zero skeleton))
           'not-zero
-          (algebra-expanded-test (algebra-evaluate skeleton))))))
+          (let ((*algebra-may-give-up* t))
+            (catch 'algebra-too-large
+              (algebra-expanded-test (algebra-evaluate skeleton))))))))
 
 (defun algebra-expanded-test (quotient)
   (when (algebra-vanishes-p (cdr quotient)) (core-error "division by zero"))
