@@ -56,8 +56,6 @@
 (defun archive-give (call name value)
   (setf (gethash name (archive-call-given call)) value))
 
-(defun archive-count-words (n one) (format nil "~r ~a~:[s~;~]" n one (= n 1)))
-
 (defun archive-give-positional (call names values)
   (loop for name in (remove "&optional" names :test #'equal)
         for value in values
@@ -66,8 +64,8 @@
 (defun archive-give-trailing (call values)
   (let ((names (core-public-trailing (archive-call-public call))))
     (when (> (length values) (length names))
-      (core-error "after the system at most ~a may follow~@[ (~{~a~^, ~})~], found ~d"
-                  (archive-count-words (length names) "argument") names (length values)))
+      (core-error "after the system ~:[only options~;~:*~{~a~^, ~} and options~] may follow, found ~a"
+                  names (core-words (list (nth (length names) values)))))
     (archive-give-positional call names values)))
 
 (defun archive-form-fits (form values)
@@ -91,11 +89,32 @@
            collect (format nil "~a(~{~a~^, ~})" name (remove "&optional" (cdr form) :test #'equal))))))
 
 (defun archive-option-name (equation)
+  "The name of an option. `verbose', `functions' and `values' are variables of Maxima's own and arrive as their values."
   (let ((left (cadr equation)))
     (cond ((stringp left) left)
-          ((and (symbolp left) left) (core-spelling left))
+          ((member left '(nil t)) "verbose")
+          ((eq left $functions) "functions")
+          ((eq left $values) "values")
+          ((symbolp left) (core-spelling left))
           (t (core-error "an option has the form name = value, found ~a; if the name has a value in your session, quote it: 'name = value"
                          (core-words (list equation)))))))
+
+(defparameter *archive-option-types*
+  '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved" "matrices")
+    (:form "canonical, factored or program" "form")
+    (:file "a file name in double quotes" "result"))
+  "What the value of an option may be, and the options of which that holds; other values are looked at where they are used.")
+
+(defun archive-option-fits (type value)
+  (ecase type
+    (:truth (member value '(nil t)))
+    (:form (member value '($canonical $factored $program)))
+    (:file (stringp value))))
+
+(defun archive-check-option (option value)
+  (let ((row (find-if (lambda (row) (member option (cddr row) :test #'string=)) *archive-option-types*)))
+    (unless (or (null row) (archive-option-fits (first row) value))
+      (core-error "the option ~a is ~a, found ~a" option (second row) (core-words (list value))))))
 
 (defun archive-overrulable-keys (kind)
   "Names of the keys of [system] that a call may overrule."
@@ -130,6 +149,7 @@
       (let ((name (archive-option-name equation)))
         (unless (member name known :test #'equal)
           (core-error "there is no option ~a; the options are ~{~a~^, ~}" name (sort (copy-list known) #'string<)))
+        (archive-check-option name (caddr equation))
         (archive-give call name (caddr equation))
         (when (and (archive-call-archive call) (member name (archive-overrulable-keys (archive-call-kind call)) :test #'equal))
           (archive-overrule call name (caddr equation)))))

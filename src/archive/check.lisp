@@ -43,10 +43,10 @@
 
 (defun archive-check-value (key text)
   "The checked value of KEY that TEXT spells; an error otherwise."
-  (multiple-value-bind (value trouble)
-    (archive-typed (archive-key-type key) (archive-parse-value text))
-    (when trouble (core-error "~a" (archive-mismatch key value trouble)))
-    value))
+  (let ((answer (archive-parse-value text)))
+    (multiple-value-bind (value trouble) (archive-typed (archive-key-type key) answer)
+      (when trouble (core-error "~a" (archive-mismatch key answer trouble)))
+      value)))
 
 (defun archive-value-trouble (key text)
   "What is wrong with TEXT as a value of KEY, or nil."

@@ -276,10 +276,17 @@
                                  append (archive-groups-like groups word)))))
     (append system (mapcar (lambda (group) (archive-section-equation kind group)) sections))))
 
-(defun archive-system-group (groups)
-  (or (archive-find-group groups "system")
-      (core-error "there is no section [system]~@[; is [~a] meant for it?~]"
-                  (archive-nearest "system" (mapcar #'archive-group-section groups)))))
+(defun archive-system-needed-p (kind)
+  "Whether [system] has keys that an archive of KIND must state."
+  (some (lambda (key) (consp (member (archive-key-default key) '(:required)))) (archive-keys kind "system")))
+
+(defun archive-system-group (kind groups)
+  "The group [system]; an empty one where it is left out and nothing in it is required."
+  (let ((meant (archive-nearest "system" (mapcar #'archive-group-section groups))))
+    (cond ((archive-find-group groups "system"))
+          ((or meant (archive-system-needed-p kind))
+           (core-error "there is no section [system]~@[; is [~a] meant for it?~]" meant))
+          (t (make-archive-group :section "system")))))
 
 (defun archive-checked (groups)
   "The checked description of GROUPS."
@@ -287,7 +294,7 @@
     (archive-check-repeated-sections groups)
     (let* ((known (archive-known-groups kind groups))
            (top (archive-find-group known "archive"))
-           (system (archive-checked-keys kind (archive-system-group groups)))
+           (system (archive-checked-keys kind (archive-system-group kind groups)))
            (head (remove '$dynarch (archive-checked-keys kind top) :key #'second)))
       (archive-list
        (append head

@@ -10,7 +10,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/check" "archive/digest" "archive/store"))
 
-(defparameter *archive-result-keys* '("from" "own" "form" "check" "left_out" "partial")
+(defparameter *archive-result-keys*
+  '("from" "own" "options" "form" "check" "left_out" "partial")
   "Keys of a result section that are no part of its value.")
 
 (defparameter *archive-result-width* 96)
@@ -60,6 +61,11 @@ options as texts."
 
 (defun archive-has-result (archive name)
   (and (archive-result-section archive name) t))
+
+(defun archive-stored-options (archive name)
+  "The options that the stored result NAME was made with, as text; \"\" for none."
+  (let ((entry (archive-find-entry (archive-result-section archive name) "options")))
+    (if entry (archive-entry-parsed entry) "")))
 
 (defun archive-value-entries (section)
   "The entries of a result SECTION that make its value."
@@ -203,19 +209,21 @@ doubles."
   (archive-spell (substitute-if #\Space (lambda (c) (< (char-code c) 32))
                                 (format nil "~{~a~^; ~}" notes))))
 
-(defun archive-result-text (name value from form checks left-out)
+(defun archive-result-text (name value from options form checks left-out)
   "The lines of the section [result NAME], without the last line end."
   (let ((parts (archive-value-parts value (archive-numerical-p name))))
     (format nil "[result ~a]~%from = ~a~%own = ~a~%~
-                 ~@[form = ~a~%~]~@[check = ~a~%~]~@[left_out = ~a~%~]~{~a~^~%~}"
+                 ~@[options = ~a~%~]~@[form = ~a~%~]~@[check = ~a~%~]~@[left_out = ~a~%~]~{~a~^~%~}"
             name from (archive-own-digest parts)
+            (and options (string/= options "") (archive-spell options))
             form
             (and checks (archive-note-text checks))
             (and left-out (archive-note-text left-out))
             (loop for (key . text) in parts collect (format nil "~a = ~a" key text)))))
 
 (defun archive-save (archive results &optional elsewhere)
-  "Writes RESULTS, a list of (name :value :from :form :checks :left-out), into ARCHIVE's file or
+  "Writes RESULTS, a list of (name :value :from :options :form :checks
+:left-out), into ARCHIVE's file or
 ELSEWHERE, at one stroke.
 True when done; else a warning, and the file is as it was."
   (archive-save-sections
@@ -224,5 +232,5 @@ True when done; else a warning, and the file is as it was."
      (loop for (name . parts) in results
            collect (cons (archive-result-name name)
                          (archive-result-text name (getf parts :value) (getf parts :from)
-                                              (getf parts :form)
+                                              (getf parts :options) (getf parts :form)
                                               (getf parts :checks) (getf parts :left-out)))))))

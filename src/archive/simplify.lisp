@@ -152,18 +152,50 @@
       (loop while (and (/= n 0) (zerop (rem n p))) do (setq n (floor n p)))))
   n)
 
+;; One order of terms and factors before Maxima sees them: its own order is not always one (where 2^x*y*f(z) has its 2^x
+;; depends on what came first), and what is read and written again must come to rest.
+
+(defun archive-compared (a b)
+  "Negative, 0 or positive: numbers, then names, then forms by operator and parts."
+  (cond ((eq a b) 0)
+        ((and (realp a) (realp b)) (cond ((< a b) -1) ((> a b) 1) (t 0)))
+        ((realp a) -1)
+        ((realp b) 1)
+        ((and (atom a) (atom b)) (archive-strings-compared (string a) (string b)))
+        ((atom a) -1)
+        ((atom b) 1)
+        (t (let ((operators (archive-strings-compared (string (caar a)) (string (caar b)))))
+             (if (zerop operators) (archive-lists-compared (cdr a) (cdr b)) operators)))))
+
+(defun archive-strings-compared (a b)
+  (cond ((string< a b) -1) ((string> a b) 1) (t 0)))
+
+(defun archive-lists-compared (a b)
+  (loop
+    (cond ((null a) (return (if b -1 0)))
+          ((null b) (return 1)))
+    (let ((parts (archive-compared (pop a) (pop b))))
+      (unless (zerop parts) (return parts)))))
+
+(defun archive-ordered (list)
+  (sort (copy-list list) (lambda (a b) (minusp (archive-compared a b)))))
+
 ;; Sums
 
 (defun archive-sum (terms)
-  "The sum of simplified TERMS; halves are merged, so that a long sum takes n*log(n) steps."
+  "The sum of simplified TERMS."
+  (archive-merged-sum (archive-ordered terms)))
+
+(defun archive-merged-sum (terms)
+  "The sum of TERMS; halves are merged, so that a long sum takes n*log(n) steps."
   (let ((n (length terms)))
     (cond ((= n 1) (car terms))
           ((<= n 4) (archive-check-sum (archive-simplified (list* '(mplus) terms))))
           (t (let ((half (floor n 2)))
                (archive-check-sum
                 (archive-simplified (list '(mplus)
-                                          (archive-sum (subseq terms 0 half))
-                                          (archive-sum (nthcdr half terms))))))))))
+                                          (archive-merged-sum (subseq terms 0 half))
+                                          (archive-merged-sum (nthcdr half terms))))))))))
 
 (defun archive-check-sum (sum)
   "SUM, or an error if one of its numbers has grown too long."
@@ -183,10 +215,23 @@
   (cond ((null (cdr factors)) (car factors))
         ((every #'mnump factors) (archive-number-product factors))
         (t (archive-check-factors factors)
-           (archive-check-product (archive-simplified (list* '(mtimes) factors))))))
+           (archive-check-product (archive-simplified (list* '(mtimes) (archive-ordered factors)))))))
 
 (defun archive-number-product (numbers)
-  (reduce (lambda (a b) (archive-check-number (timesk a b))) numbers))
+  "The product of NUMBERS, by halves."
+  (when (> (loop for number in numbers sum (archive-bits number)) (* 10 *archive-weight*))
+    (archive-refuse "a product whose numbers have more than ~d digits together" *archive-weight*))
+  (labels ((product (numbers n)
+             (if (= n 1)
+                 (car numbers)
+                 (let ((half (floor n 2)))
+                   (archive-check-number (timesk (product numbers half) (product (nthcdr half numbers) (- n half))))))))
+    (product numbers (length numbers))))
+
+(defun archive-bits (number)
+  (cond ((integerp number) (integer-length number))
+        ((ratnump number) (+ (integer-length (cadr number)) (integer-length (caddr number))))
+        (t 0)))
 
 (defun archive-check-factors (factors)
   (when (or (> (length factors) *archive-factors*)
@@ -248,6 +293,7 @@
         ((and (mexptp base) (integerp exponent))
          (archive-power (cadr base) (archive-product (list (caddr base) exponent))))
         ((mtimesp base) (archive-power-of-product base exponent))
+        ((and (consp base) (eq (caar base) 'mabs)) (list '(mexpt simp) base exponent))
         (t (archive-check-product (archive-simplified (list '(mexpt) base exponent))))))
 
 (defun archive-power-of-zero (base exponent)

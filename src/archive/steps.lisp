@@ -12,7 +12,7 @@
   keys     ; keys of [system] the quantity depends on; "*" is the whole structure
   extras)  ; arguments, options and hand-edited results it depends on, as text
 
-(defstruct archive-step name value from checks left-out)
+(defstruct archive-step name value from options checks left-out)
 
 (defun archive-rule (call name)
   (core-find-rule name (archive-call-kind call)
@@ -69,17 +69,27 @@
 
 (defun archive-add-edited (call name need)
   "A result edited by hand is itself something to depend on."
-  (let ((own (archive-stored-p call name)))
-    (when (and own (archive-edited-digest (archive-call-archive call) name))
-      (push (format nil "~a edited ~a" name (archive-edited-digest (archive-call-archive call) name))
-            (archive-need-extras need)))))
+  (when (and (archive-stored-p call name) (archive-same-options-p call name))
+    (let ((edited (archive-edited-digest (archive-call-archive call) name)))
+      (when edited (push (format nil "~a edited ~a" name edited) (archive-need-extras need))))))
 
 (defun archive-stored-p (call name)
   (and (archive-call-archive call) (archive-path (archive-call-archive call))
        (gethash name *core-publics*)
        (archive-has-result (archive-call-archive call) name)))
 
-(defun archive-step-digest (call name)
+(defun archive-edited-extra-p (extra) (search " edited sha256:" extra))
+
+(defun archive-options-of (call name)
+  "The arguments and options of the call that NAME depends on, as one text."
+  (format nil "~{~a~^, ~}"
+          (sort (remove-if #'archive-edited-extra-p (copy-list (archive-need-extras (archive-needs call name)))) #'string<)))
+
+(defun archive-same-options-p (call name)
+  "Whether the stored result NAME was made with this call's options."
+  (string= (archive-stored-options (archive-call-archive call) name) (archive-options-of call name)))
+
+(defun archive-digest-of (call name)
   "The digest `from' of the result NAME: what it was computed from."
   (let ((need (archive-needs call name)))
     (archive-from-digest (archive-call-archive call)
@@ -124,15 +134,40 @@
           (remove-if (lambda (e) (member (cadr e) hidden)) (cdr (archive-description (archive-call-archive call)))))))
 
 (defun archive-stored-value (call name rule)
+  "The stored result NAME where it is still good, else a new one."
+  (if (archive-same-options-p call name)
+      (archive-stored-value-or-new call name rule)
+      (progn (archive-note-other-options call name) (archive-rule-value call name rule))))
+
+(defun archive-stored-value-or-new (call name rule)
   (multiple-value-bind (value state)
-      (archive-result (archive-call-archive call) name (archive-step-digest call name))
+      (archive-result (archive-call-archive call) name (archive-digest-of call name))
     (ecase state
-      (:fresh (values (archive-in-full call value) t))
+      (:fresh (if (archive-option call "result" nil)
+                  (archive-rule-value call name rule)
+                  (values (archive-in-full call value) t)))
       (:edited
        (core-note "using [result ~a] as it was edited by hand" name)
        (values (archive-in-full call value) t))
-      (:stale (core-note "[result ~a] was made from another description or other options; computing it again" name)
+      (:stale (core-note "the description has changed since [result ~a] was computed; computing it again" name)
        (archive-rule-value call name rule)))))
+
+(defun archive-named-options (text) (if (string= text "") "without options" (format nil "with ~a" text)))
+
+(defun archive-note-other-options (call name)
+  "Says that the stored result NAME is not what is asked for, and what becomes of it."
+  (core-note "[result ~a] was computed ~a; computing it ~a~:[~; and leaving the section, which was edited by hand~]" name
+             (archive-named-options (archive-stored-options (archive-call-archive call) name))
+             (archive-named-options (archive-options-of call name))
+             (archive-edited-digest (archive-call-archive call) name)))
+
+(defun archive-keeps-section-p (call name)
+  "Whether a stored section NAME stays although another result was computed: one of other options that was edited by hand,
+or that this call only passes through."
+  (and (archive-stored-p call name)
+       (not (archive-same-options-p call name))
+       (or (archive-edited-digest (archive-call-archive call) name)
+           (string/= name (core-public-name (archive-call-public call))))))
 
 (defun archive-rule-value (call name rule)
   (cond ((rule-same rule) (values (archive-value call (rule-same rule)) t))
@@ -144,24 +179,24 @@
   "A part of a record by its name, or of a list by its number."
   (if (integerp field) (nth field record) ($core_get record (core-symbol field))))
 
+(defun archive-inputs (call rule)
+  "The values of the inputs of RULE, in their order."
+  (mapcar (lambda (input)
+            (if (consp input)
+                (archive-value call (car input) (cadr input))
+                (archive-value call input)))
+          (rule-inputs rule)))
+
 (defun archive-compute (call name rule)
   "Applies the rule's pure function to its inputs; a public step is noted for saving."
-  (let* ((inputs (mapcar (lambda (input)
-                           (if (consp input)
-                               (archive-value call (car input) (cadr input))
-                               (archive-value call input)))
-                         (rule-inputs rule)))
+  (let* ((inputs (archive-inputs call rule))
          (*core-checks* '()) (*core-left-out* '())
          (began (get-internal-real-time)))
-    (core-require (rule-part rule))
     (core-progress "computing ~a" name)
-    (let ((value (mfuncall-with (rule-function rule) inputs)))
+    (let ((value (core-apply-rule rule inputs)))
       (when (gethash name *core-publics*) (archive-note-step call name value))
       (archive-report-time call name began)
       value)))
-
-(defun mfuncall-with (function inputs)
-  (apply #'mfuncall function inputs))
 
 ;;; Abbreviations are names for the person: results are saved and returned in them, and computed without them
 
@@ -187,8 +222,10 @@
                *core-left-out*)))
 
 (defun archive-note-step (call name value)
-  (when (and (archive-call-archive call) (archive-path (archive-call-archive call)))
-    (push (make-archive-step :name name :value (archive-abbreviated call value) :from (archive-step-digest call name)
+  (when (and (archive-call-archive call) (archive-path (archive-call-archive call))
+             (or (archive-option call "result" nil) (not (archive-keeps-section-p call name))))
+    (push (make-archive-step :name name :value (archive-abbreviated call value)
+                             :from (archive-digest-of call name) :options (archive-options-of call name)
                              :checks (reverse *core-checks*) :left-out (reverse *core-left-out*))
           (archive-call-new call))))
 
@@ -199,6 +236,7 @@
                   (mapcar (lambda (step)
                             (list (archive-step-name step)
                                   :value (archive-step-value step) :from (archive-step-from step)
+                                  :options (archive-step-options step)
                                   :checks (archive-step-checks step) :left-out (archive-step-left-out step)))
                           (reverse (archive-call-new call)))
                   (archive-option call "result" nil))))

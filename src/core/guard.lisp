@@ -78,7 +78,8 @@
   "Calls FUNCTION in a context below the user's in which FACTS are assumed; where the two disagree the user's are left out."
   (let ((contradicted (core-contradicted facts)))
     (cond (contradicted
-           (core-warn "the archive's ~a contradicts what the session assumes, which is left out" (core-words (list contradicted)))
+           (core-warn "the archive says ~a; what you assumed in the session contradicts it and is not used here"
+                      (core-words (list contradicted)))
            (with-new-context ('$global) (core-call-with-facts facts function)))
           (t (with-new-context () (core-call-with-facts facts function))))))
 
@@ -122,7 +123,7 @@
         (setq values (catch 'core-throw (with-errcatch-tag-$errors (funcall function))))
       (maxima-$error () (setq text (core-error-text)))
       #+sbcl (sb-sys:interactive-interrupt (c) (errlfun1 errcatch) (error c))
-      #+sbcl (storage-condition () (setq text (format nil "~@[~a: ~]memory is exhausted; ask for form = program, or give Maxima a larger heap" *core-function*)))
+      #+sbcl (storage-condition () (setq text (format nil "~@[~a: ~]memory is exhausted; give Maxima a larger heap, or a smaller system" *core-function*)))
       (error (condition) (setq text (core-failure-text condition))))
     (when text (errlfun1 errcatch))
     (values values text)))

@@ -75,6 +75,17 @@
   (first (sort (remove-if-not (lambda (rule) (core-rule-fits rule kind given)) (gethash name *core-rules*))
                #'< :key #'core-rule-rank)))
 
+(defun core-rule-ready-p (rule)
+  "Whether the pure function that RULE names is there, its part loaded."
+  (core-require (rule-part rule))
+  (or (fboundp (rule-function rule)) (mget (rule-function rule) 'mexpr)))
+
+(defun core-apply-rule (rule inputs)
+  "The pure function of RULE applied to INPUTS."
+  (unless (core-rule-ready-p rule)
+    (core-error "~a is not in src/~a" (core-spelling (rule-function rule)) (rule-part rule)))
+  (apply #'mfuncall (rule-function rule) inputs))
+
 (defvar *core-abbreviator* nil "Part and function that express a result in the archive's abbreviations.")
 
 (defun core-abbreviator (part function)
