@@ -68,25 +68,33 @@
 (defun algebra-minor-table (matrix)
   "A function of (k columns): the minor of rows 0 .. k-1 in the set of COLUMNS."
   (let ((known (make-hash-table :test #'eql))
-        (n (array-dimension matrix 0)))
+        (terms 0))
     (labels ((minor (k columns)
                (if (zerop k)
                    1
                    (or (gethash columns known)
-                       (setf (gethash columns known) (expand-row (1- k) columns)))))
-             (expand-row (row columns)
-               (let ((sum 0) (sign (if (evenp row) 1 -1)))
-                 (dotimes (j n (algebra-reduce-angles sum))
-                   (when (logbitp j columns)
-                     (let ((entry (aref matrix row j)))
-                       (unless (pzerop entry)
-                         (let ((minor (minor row (logandc2 columns (ash 1 j)))))
-                           (unless (pzerop minor)
-                             (algebra-guard-product entry minor)
-                             (setq sum (pplus sum (ptimes (if (plusp sign) entry (pminus entry))
-                                                          minor)))))))
-                     (setq sign (- sign)))))))
+                       (setf (gethash columns known) (counted (expanded (1- k) columns))))))
+             (counted (minor)
+               (incf terms (algebra-monomials minor))
+               (algebra-guard terms "the table of minors")
+               minor)
+             (expanded (row columns)
+               (algebra-reduce-angles
+                (algebra-expanded-row matrix row columns
+                                      (lambda (j) (minor row (logandc2 columns (ash 1 j))))))))
       #'minor)))
+
+(defun algebra-expanded-row (matrix row columns minor-without)
+  "The sum over the COLUMNS of +- entry * minor without its column."
+  (let ((sum 0)
+        (sign (if (evenp row) 1 -1)))
+    (dotimes (j (array-dimension matrix 0) sum)
+      (when (logbitp j columns)
+        (let ((entry (aref matrix row j)))
+          (unless (pzerop entry)
+            (setq sum (pplus sum (algebra-guarded-times (ptimes sign entry)
+                                                        (funcall minor-without j))))))
+        (setq sign (- sign))))))
 
 (defun algebra-leading-minor-polynomials (matrix)
   (let ((minor (algebra-minor-table matrix)))
@@ -140,7 +148,8 @@
              previous))
 
 (defun algebra-guarded-times (p q)
-  (algebra-guard-product p q)
+  (unless (or (algebra-one-term-p p) (algebra-one-term-p q))
+    (algebra-guard-product p q))
   (ptimes p q))
 
 (defun algebra-copy-array (matrix)
