@@ -8,9 +8,8 @@
 
 (in-package :maxima)
 
-(defparameter *archive-version* 1)
-
-(defparameter *archive-kinds* '("mechanical" "lagrangian" "circuit" "equations" "poisson"))
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/types" "archive/nearest"))
 
 (defparameter *archive-analysis-keys*
   '("title" "where" "abbreviations" "unknowns" "solution" "values" "start" "time")
@@ -28,42 +27,6 @@
     ("couplings" ("circuit") :rows "label label  M, or label label  k = number")
     ("transformers" ("circuit") :rows "node -> node : node -> node  ratio n"))
   "Name, kinds, how many there are, meaning.")
-
-(defparameter *archive-types*
-  '((:version archive-as-version "1")
-    (:kind archive-as-kind "mechanical, lagrangian, circuit, equations or poisson")
-    (:text archive-as-text "a text in double quotes")
-    (:count archive-as-count "a positive integer")
-    (:names archive-as-names "a list of names, such as [phi, theta]")
-    (:facts archive-as-facts "a list of names and of what is assumed of them, such as [m > 0, h]")
-    (:numbers archive-as-numbers "a list of numbers by name, such as [m = 1, l = 2/5]")
-    (:assignments archive-as-assignments "a list of expressions by name, such as [s2 = 2*s1]")
-    (:laws archive-as-laws "a list of functions, such as [f1(u) = g1*u^3]")
-    (:motion archive-as-motion "a list such as [theta = 0, theta' = 1]")
-    (:span archive-as-span "two numbers, such as [0, 10]")
-    (:expression archive-as-expression "an expression")
-    (:expressions archive-as-expressions "a list of expressions")
-    (:vector archive-as-vector "a list of three expressions")
-    (:vanishing archive-as-vanishing "a list of equations, such as [x^2 + y^2 - l^2 = 0]")
-    (:rates archive-as-rates
-            "a list of equations solved for the velocities, such as [p' = q, q' = -p]")
-    (:field archive-as-field "none, constant or newton")
-    (:sign archive-as-sign "passive or generator")
-    (:parent archive-as-parent "0, the number of a body, or the name of a frame")
-    (:axes archive-as-axes "a list of 1, 2 and 3, such as [3, 1]")
-    (:velocity archive-as-velocity "a list of three expressions, or auto")
-    (:inertia archive-as-inertia "a 3 x 3 matrix, such as diag(A, B, C), or 0")
-    (:spin archive-as-spin "a body axis and an angle, such as [3, chi]")
-    (:rotor archive-as-rotor "free, momentum(h), speed(w) or control(Q)")
-    (:pair archive-as-pair "two bodies, such as [1, 2]; 0 is the fixed axes")
-    (:points archive-as-points "two points, such as [[0, 0, 0], [0, 0, l]]")
-    (:node archive-as-node "an integer or a name")
-    (:states archive-as-states "a list of states by label, such as [i1 = L1, u3 = C3]")
-    (:graph archive-as-graph "a list of branches, such as {{{1, 2}, L1}, {{2, 3}, C1, u1}}")
-    (:skew archive-as-skew
-           "a square matrix with {x_j, x_i} = -{x_i, x_j}, such as [[0, 1], [-1, 0]]")
-    (:algebra archive-as-algebra "so(4), e(3) or so(3,1)"))
-  "Type, the function of types.lisp that checks a value of it, and what such a value is.")
 
 (defparameter *archive-key-rows*
   '((("top" :all)
@@ -270,9 +233,6 @@ asked."
   "The keys that an option of a call may overrule in archives of KIND."
   (remove-if-not #'archive-overrulable-p (archive-keys kind "system")))
 
-(defun archive-type-phrase (type)
-  (third (assoc type *archive-types*)))
-
 (defun archive-sections-of (kind)
   "The sections of an archive of KIND, rows of *archive-sections*."
   (remove-if-not (lambda (section) (archive-serves-p (second section) kind)) *archive-sections*))
@@ -284,41 +244,13 @@ asked."
   "The first word of a section's name: \"body\" of \"body 2\"."
   (subseq section 0 (position #\Space section)))
 
-;; The nearest known name
+;; A value that does not fit
 
-(defun archive-edit-distance (a b)
-  "How many letters must be put in, left out, exchanged or swapped with their neighbour to make B
-of A."
-  (let* ((m (length a)) (n (length b)) (d (make-array (list (1+ m) (1+ n)) :initial-element 0)))
-    (dotimes (i (1+ m)) (setf (aref d i 0) i))
-    (dotimes (j (1+ n)) (setf (aref d 0 j) j))
-    (loop for i from 1 to m
-          do (loop for j from 1 to n
-                   do (setf (aref d i j)
-                            (min (1+ (aref d (1- i) j))
-                                 (1+ (aref d i (1- j)))
-                                 (+ (aref d (1- i) (1- j))
-                                    (if (char-equal (char a (1- i)) (char b (1- j))) 0 1))
-                                 (archive-swap-distance a b d i j)))))
-    (aref d m n)))
-
-(defun archive-swap-distance (a b d i j)
-  "The distance by way of two letters that are swapped, or one too large to matter."
-  (if (and (> i 1) (> j 1)
-           (char-equal (char a (1- i)) (char b (- j 2)))
-           (char-equal (char a (- i 2)) (char b (1- j))))
-      (1+ (aref d (- i 2) (- j 2)))
-      (+ i j)))
-
-(defun archive-nearest (name known)
-  "The one of the KNOWN names that NAME is most likely meant to be, or nil. Long names only: 200
-letters are no misprint."
-  (when (<= (length name) 40)
-    (let ((best nil) (least (1+ (max 1 (floor (length name) 3)))))
-      (dolist (candidate known best)
-        (let ((distance (archive-edit-distance name candidate)))
-          (when (< distance least)
-            (setf best candidate least distance)))))))
+(defun archive-mismatch (key value trouble)
+  "The sentence for a VALUE that is not what KEY wants."
+  (format nil "~a must be ~a, found ~a~:[; ~a~;~]" (archive-key-name key)
+          (archive-type-phrase (archive-key-type key)) (archive-value-shown value)
+          (string= trouble "") trouble))
 
 ;; The table as text, for the manual
 

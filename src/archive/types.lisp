@@ -7,7 +7,50 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys"))
+  (core-require "archive/nearest"))
+
+(defparameter *archive-version* 1)
+
+(defparameter *archive-kinds* '("mechanical" "lagrangian" "circuit" "equations" "poisson"))
+
+(defparameter *archive-types*
+  '((:version archive-as-version "1")
+    (:kind archive-as-kind "mechanical, lagrangian, circuit, equations or poisson")
+    (:text archive-as-text "a text in double quotes")
+    (:count archive-as-count "a positive integer")
+    (:names archive-as-names "a list of names, such as [phi, theta]")
+    (:facts archive-as-facts "a list of names and of what is assumed of them, such as [m > 0, h]")
+    (:numbers archive-as-numbers "a list of numbers by name, such as [m = 1, l = 2/5]")
+    (:assignments archive-as-assignments "a list of expressions by name, such as [s2 = 2*s1]")
+    (:laws archive-as-laws "a list of functions, such as [f1(u) = g1*u^3]")
+    (:motion archive-as-motion "a list such as [theta = 0, theta' = 1]")
+    (:span archive-as-span "two numbers, such as [0, 10]")
+    (:expression archive-as-expression "an expression")
+    (:expressions archive-as-expressions "a list of expressions")
+    (:vector archive-as-vector "a list of three expressions")
+    (:vanishing archive-as-vanishing "a list of equations, such as [x^2 + y^2 - l^2 = 0]")
+    (:rates archive-as-rates
+            "a list of equations solved for the velocities, such as [p' = q, q' = -p]")
+    (:field archive-as-field "none, constant or newton")
+    (:sign archive-as-sign "passive or generator")
+    (:parent archive-as-parent "0, the number of a body, or the name of a frame")
+    (:axes archive-as-axes "a list of 1, 2 and 3, such as [3, 1]")
+    (:velocity archive-as-velocity "a list of three expressions, or auto")
+    (:inertia archive-as-inertia "a 3 x 3 matrix, such as diag(A, B, C), or 0")
+    (:spin archive-as-spin "a body axis and an angle, such as [3, chi]")
+    (:rotor archive-as-rotor "free, momentum(h), speed(w) or control(Q)")
+    (:pair archive-as-pair "two bodies, such as [1, 2]; 0 is the fixed axes")
+    (:points archive-as-points "two points, such as [[0, 0, 0], [0, 0, l]]")
+    (:node archive-as-node "an integer or a name")
+    (:states archive-as-states "a list of states by label, such as [i1 = L1, u3 = C3]")
+    (:graph archive-as-graph "a list of branches, such as {{{1, 2}, L1}, {{2, 3}, C1, u1}}")
+    (:skew archive-as-skew
+           "a square matrix with {x_j, x_i} = -{x_i, x_j}, such as [[0, 1], [-1, 0]]")
+    (:algebra archive-as-algebra "so(4), e(3) or so(3,1)"))
+  "Type, the function below that checks a value of it, and what such a value is.")
+
+(defun archive-type-phrase (type)
+  (third (assoc type *archive-types*)))
 
 (defun archive-unfit (&optional (control "") &rest arguments)
   "Leave archive-typed: the value is not of its type; CONTROL may say which part of it."
@@ -23,12 +66,6 @@
 
 (defun archive-type-function (type)
   (second (assoc type *archive-types*)))
-
-(defun archive-mismatch (key value trouble)
-  "The sentence for a VALUE that is not what KEY wants."
-  (format nil "~a must be ~a, found ~a~:[; ~a~;~]" (archive-key-name key)
-          (archive-type-phrase (archive-key-type key)) (archive-value-shown value)
-          (string= trouble "") trouble))
 
 (defun archive-value-shown (value)
   "VALUE as an archive would spell it, cut after sixty letters."
