@@ -76,7 +76,7 @@
                        (setf (gethash columns known) (counted (expanded (1- k) columns))))))
              (counted (minor)
                (incf terms (algebra-monomials minor))
-               (algebra-guard terms "the table of minors")
+               (algebra-guard terms "the minors of a determinant" "put in what is known of them")
                minor)
              (expanded (row columns)
                (algebra-reduce-angles

@@ -24,12 +24,12 @@
 (defun $algebra_size (e)
   (algebra-size e))
 
-(defun algebra-guard (predicted what)
+(defun algebra-guard (predicted what &optional (advice "take form = factored or program"))
   (when (> predicted *algebra-limit*)
     (when *algebra-may-give-up* (throw 'algebra-too-large 'too-large))
-    (core-error "~A would have about ~A terms, more than the ~A that are safe; ~A"
-                what (algebra-about predicted) *algebra-limit*
-                "give numbers to some parameters, or take form = factored or program")))
+    (core-error "~A would have about ~A terms, more than the ~A that are safe; ~
+                 give numbers to some parameters or ~A"
+                what (algebra-about predicted) *algebra-limit* advice)))
 
 (defun algebra-about (n)
   "Two leading digits of a large number."
