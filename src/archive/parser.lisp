@@ -343,7 +343,7 @@
     (cond ((plusp primes) (archive-primed-name reader name primes from))
           ((eq (reader-kind reader) :open)
            (multiple-value-bind (arguments places) (archive-parse-elements! reader :close ")")
-             (archive-call reader name from arguments places)))
+             (archive-function-call reader name from arguments places)))
           ((string= name "true") t)
           ((string= name "false") nil)
           ((member (reader-kind reader) '(:quote))
@@ -372,11 +372,11 @@
     (unless (eq (reader-kind reader) :open)
       (archive-fault reader (reader-from reader) "found ~a, expected ( after ~a" (archive-token-shown reader) name))
     (multiple-value-bind (arguments places) (archive-parse-elements! reader :close ")")
-      (archive-call reader name from arguments places))))
+      (archive-function-call reader name from arguments places))))
 
 ;; Functions
 
-(defun archive-call (reader name from arguments places)
+(defun archive-function-call (reader name from arguments places)
   "The function NAME, which stands at FROM, of ARGUMENTS, which stand at PLACES."
   (let ((form (cdr (assoc name *archive-forms* :test #'string=)))
         (function (assoc name *archive-functions* :test #'string=)))
