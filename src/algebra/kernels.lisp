@@ -64,6 +64,9 @@
 (defun algebra-variable (kernel)
   (list (algebra-kernel-variable kernel) 1 1))
 
+(defun algebra-pair-p (unit)
+  (member (algebra-unit-kind unit) '(circular hyperbolic)))
+
 (defun algebra-over (numerator denominator)
   "The skeleton of a quotient of skeletons."
   (list '* numerator (list '^ denominator -1)))

@@ -20,9 +20,6 @@
   (dolist (unit (algebra-ring-units *algebra-ring*) p)
     (setq p (algebra-eliminate-sine p unit))))
 
-(defun algebra-pair-p (unit)
-  (member (algebra-unit-kind unit) '(circular hyperbolic)))
-
 (defun algebra-eliminate-sine (p unit)
   "s^2 = 1 - c^2, or c^2 - 1 for hyperbolic angles."
   (if (algebra-pair-p unit)
