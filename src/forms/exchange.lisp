@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Finding the time derivatives 'diff(q,t,n) in an expression, and exchanging them, all at once,
-;;; for other expressions. subst() goes through the expression once for each of them and breaks
-;;; 'diff(q,t) when it puts in a value for q.
+;;; Finding the time derivatives 'diff(q,t,n) in an expression, and exchanging names and these for
+;;; other expressions, all at once. subst() goes through the expression once for each of them,
+;;; breaks 'diff(q,t) when it puts in a value for q, and takes the variable of an integral for
+;;; something of its own. How nouns with variables of their own are served: bound.lisp.
 
 (in-package :maxima)
 
@@ -21,31 +22,48 @@
   "The list of all 'diff(q,t,n) in E, in the order in which they occur."
   (cons '(mlist simp) (nreverse (forms-collect-derivatives e '()))))
 
-(defun forms-exchange (e find)
-  "E with FIND's answer for every part; FIND returns the part itself where it knows nothing."
-  (let ((other (funcall find e)))
+(defstruct forms-pairs
+  names      ; name -> its value
+  others     ; (expression . value), ..
+  operators  ; of the others
+  hidden)    ; what stays: the variables of the nouns around
+
+(defun forms-read-pairs (pairs)
+  (let ((read (make-forms-pairs :names (make-hash-table :test #'eq))))
+    (dolist (pair pairs read)
+      (destructuring-bind (old new) (cdr pair)
+        (cond ((symbolp old) (setf (gethash old (forms-pairs-names read)) new))
+              (t (push (cons old new) (forms-pairs-others read))
+                 (pushnew (caar old) (forms-pairs-operators read))))))))
+
+(defun forms-value-in (pairs part)
+  "What PART is to be exchanged for; PART itself where it is not."
+  (cond ((and (forms-pairs-hidden pairs) (member part (forms-pairs-hidden pairs) :test #'alike1))
+         part)
+        ((symbolp part) (values (gethash part (forms-pairs-names pairs) part)))
+        ((and (consp part) (member (caar part) (forms-pairs-operators pairs) :test #'eq))
+         (let ((pair (assoc part (forms-pairs-others pairs) :test #'alike1)))
+           (if pair (cdr pair) part)))
+        (t part)))
+
+(defvar *forms-bound-exchange* nil "Serves the nouns with variables of their own, see bound.lisp.")
+
+(defun forms-exchange (e pairs)
+  (let ((other (forms-value-in pairs e)))
     (cond ((not (eq other e)) other)
           ((or (atom e) (forms-derivative-p e)) e)
-          (t (forms-exchange-parts e find)))))
+          ((member (caar e) '(%derivative %integrate %sum %product %limit %laplace %at) :test #'eq)
+           (funcall *forms-bound-exchange* e pairs))
+          (t (forms-exchange-parts e pairs)))))
 
-(defun forms-exchange-parts (e find)
-  (let* ((parts (mapcar (lambda (part) (forms-exchange part find)) (cdr e))))
-    (if (every #'eq parts (cdr e))
-        e
-        (simplifya (cons (remove 'simp (car e)) parts) nil))))
+(defun forms-exchange-parts (e pairs)
+  (forms-with-parts e (mapcar (lambda (part) (forms-exchange part pairs)) (cdr e))))
+
+(defun forms-with-parts (e parts)
+  (if (every #'eq parts (cdr e))
+      e
+      (simplifya (cons (remove 'simp (car e)) parts) nil)))
 
 (defun $forms_exchange (e pairs)
   "E with the right sides of PAIRS in place of their left sides (names and 'diff(q,t,n))."
-  (let ((names (make-hash-table :test #'eq)) (others '()))
-    (dolist (pair (cdr pairs))
-      (if (symbolp (second pair))
-          (setf (gethash (second pair) names) (third pair))
-          (push (cons (second pair) (third pair)) others)))
-    (forms-exchange e (lambda (part)
-                        (cond ((symbolp part) (values (gethash part names part)))
-                              ((and others (consp part)) (forms-exchanged part others))
-                              (t part))))))
-
-(defun forms-exchanged (part pairs)
-  (let ((pair (assoc part pairs :test #'alike1)))
-    (if pair (cdr pair) part)))
+  (forms-exchange e (forms-read-pairs (cdr pairs))))
