@@ -214,27 +214,3 @@
            (circuits-mlist
             (mapcar #'circuits-row-list
                     (remove-if (lambda (row) (member row used :test #'eq)) tables)))))))
-
-;; Substitution for names alone, all at once: an operator of the same name, and a variable of
-;; integration, stay.
-
-(defun circuits-put (table e)
-  (cond ((symbolp e) (gethash e table e))
-        ((atom e) e)
-        ((and (eq (caar e) '%integrate) (cddr e))
-         (let* ((dummy (third e)) (value (gethash dummy table dummy)))
-           (setf (gethash dummy table) dummy)
-           (prog1 (circuits-put-parts table e)
-             (setf (gethash dummy table) value))))
-        (t (circuits-put-parts table e))))
-
-(defun circuits-put-parts (table e)
-  (simplifya (cons (remove 'simp (car e))
-                   (mapcar (lambda (part) (circuits-put table part)) (cdr e)))
-             nil))
-
-(defun $circuits_put (equations e)
-  "E with the right sides of EQUATIONS [name = value, ..] for the names."
-  (let ((table (make-hash-table :test #'eq)))
-    (dolist (equation (cdr equations) (circuits-put table e))
-      (setf (gethash (second equation) table) (third equation)))))
