@@ -7,22 +7,24 @@
 ;;; so that M_ij = sum over bodies of (x_i, x_j): the mass matrix by projection, without a
 ;;; derivative of T. A body whose tensor is given about its centre of mass, and a point mass:
 ;;;     (x, y) = m u_x.u_y + w_x.Theta.w_y,   u = v + w x c.
+;;; Rotors inside of constant relative momentum h add h.w to T: h.w_i to (x_0, x_i).
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "linmodel/twists"))
 
-(defstruct linmodel-body link mass centre joint-inertia centre-inertia)
+(defstruct linmodel-body link mass centre joint-inertia centre-inertia momentum)
 
 (defun linmodel-read-body (a body)
-  "BODY is [index of its link, mass, centre, inertia about O_k, inertia about the centre]."
-  (destructuring-bind (link mass centre joint-inertia centre-inertia) (cdr body)
+  "BODY: [index of its link, mass, centre, inertia about O_k, about the centre, momentum]."
+  (destructuring-bind (link mass centre joint-inertia centre-inertia &optional momentum) (cdr body)
     (make-linmodel-body :link link
                         :mass (funcall (linmodel-arithmetic-lift a) mass)
                         :centre (linmodel-lift-vector a centre)
                         :joint-inertia (linmodel-lift-tensor a joint-inertia)
-                        :centre-inertia (linmodel-lift-tensor a centre-inertia))))
+                        :centre-inertia (linmodel-lift-tensor a centre-inertia)
+                        :momentum (and momentum (linmodel-lift-vector a momentum)))))
 
 (defun linmodel-lift-tensor (a tensor)
   (and tensor (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr tensor))))
@@ -60,13 +62,24 @@
                  do (setf (aref form i j)
                           (linmodel-plus a (aref form i j) (linmodel-twist-product a body x y))))))
 
+(defun linmodel-add-momentum (a form momentum twists)
+  "Adds h.w to the FORM, h being the MOMENTUM of the rotors inside."
+  (loop for (i w . nil) in twists
+        for product = (linmodel-dot a momentum w)
+        do (setf (aref form 0 i)
+                 (linmodel-plus a (aref form 0 i)
+                                (if (= i 0) (linmodel-plus a product product) product)))))
+
 (defun linmodel-inertia-form (a links bodies n)
   "The array of (x_i, x_j), i <= j, i and j from 0 to N."
   (let ((twists (linmodel-all-twists a (cdr links) n))
         (form (make-array (list (1+ n) (1+ n)) :initial-element 0)))
     (dolist (body (cdr bodies) form)
-      (let ((body (linmodel-read-body a body)))
-        (linmodel-add-body a form body (nth (1- (linmodel-body-link body)) twists))))))
+      (let* ((body (linmodel-read-body a body))
+             (momentum (linmodel-body-momentum body))
+             (body-twists (nth (1- (linmodel-body-link body)) twists)))
+        (linmodel-add-body a form body body-twists)
+        (when momentum (linmodel-add-momentum a form momentum body-twists))))))
 
 (defun linmodel-form-at (a form velocities)
   "sum of (x_i, x_j) v_i v_j/2 over all i and j."
