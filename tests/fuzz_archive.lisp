@@ -46,15 +46,20 @@
   (case (fuzz-random 12)
     ((0 1 2) (list* '(mplus) (fuzz-list (+ 2 (fuzz-random 4)) depth)))
     ((3 4 5) (list* '(mtimes) (fuzz-list (+ 2 (fuzz-random 3)) depth)))
-    (6 (list '(mexpt) (fuzz-expression depth) (fuzz-choice '(2 3 -1 -2 ((rat simp) 1 2) ((rat simp) -1 2) ((rat simp) 2 3)))))
+    (6 (list '(mexpt) (fuzz-base depth) (fuzz-choice '(2 3 -1 -2 ((rat simp) 1 2) ((rat simp) -1 2) ((rat simp) 2 3)))))
     (7 (let ((exponent (fuzz-expression depth)))
-         (list '(mexpt) (fuzz-choice (list '$x '$%e 2 (fuzz-expression depth)))
+         (list '(mexpt) (fuzz-choice (list '$x '$%e 2 (fuzz-base depth)))
                (if (fuzz-large-numbers-p exponent 1) (fuzz-name) exponent))))
     (8 (list (list (fuzz-choice '(%sin %cos %tan %cot %sec %csc %asin %acos %atan %sinh %cosh %tanh %log)))
              (fuzz-expression depth)))
     (9 (list (list (fuzz-choice '($f $g1 |$v| |$l|))) (fuzz-expression depth)))
     (10 (list '(%derivative) (list '($f) (fuzz-expression depth) '$x) (fuzz-choice '($x $y)) (1+ (fuzz-random 3))))
     (11 (list (fuzz-choice '((mabs) (%signum))) (fuzz-expression depth)))))
+
+(defun fuzz-base (depth)
+  "An expression whose powers Maxima finds soon."
+  (let ((e (fuzz-expression depth)))
+    (if (fuzz-large-numbers-p e 3) (fuzz-name) e)))
 
 (defun fuzz-expression (depth)
   "A random expression as Maxima simplifies it; an atom where it finds no value or a large one."
@@ -67,23 +72,24 @@
   "True when E is of moderate size and has only functions that an archive knows."
   (and (<= (fuzz-nodes e) 300)
        (not (fuzz-large-numbers-p e 60))
-       (notany (lambda (f) (archive-contains-p e f)) '(%atanh %asinh %acosh))))
+       (notany (lambda (f) (archive-contains-p e f)) '(%atanh %asinh %acosh %coth %sech %csch))))
 
 (defun fuzz-large-numbers-p (e digits)
   (if (atom e) (> (archive-digits e) digits) (some (lambda (part) (fuzz-large-numbers-p part digits)) (cdr e))))
 
+(defun fuzz-nodes (e) (if (atom e) 1 (reduce #'+ (mapcar #'fuzz-nodes (cdr e)) :initial-value 1)))
+
 (defun fuzz-settled (e)
-  "E after Maxima's simplifier has come to rest on it; nil if it does not: its order of factors is not always one."
-  (loop repeat 4
+  "E once Maxima's simplifier has come to rest on it, whose answers it does not always simplify further; 0 if it does not."
+  (loop repeat 5
         do (let ((again (core-attempt (lambda () (simplifya (fuzz-without-flags e) nil)))))
-             (cond ((null again) (return nil))
+             (cond ((null again) (return 0))
                    ((alike1 e (car again)) (return e)))
-             (setq e (car again)))))
+             (setq e (car again)))
+        finally (return 0)))
 
 (defun fuzz-without-flags (e)
   (if (atom e) e (cons (list (caar e)) (mapcar #'fuzz-without-flags (cdr e)))))
-
-(defun fuzz-nodes (e) (if (atom e) 1 (reduce #'+ (mapcar #'fuzz-nodes (cdr e)) :initial-value 1)))
 
 (defun fuzz-double ()
   "A random double: any of them, small integers, powers of ten."
@@ -107,31 +113,49 @@
     (2 (archive-inert '$matrix (loop repeat 2 collect (archive-inert 'mlist (fuzz-list 3 depth)))))
     (t (fuzz-expression depth))))
 
-(defun fuzz-reads-back-p (e &key doubles)
-  (let ((text (archive-spell e)))
-    (alike1 e (archive-parse-value text :doubles doubles :relations t))))
+(defun fuzz-sorted (e)
+  "E with the terms of its sums and the factors of its products in one order, as text: Maxima's own order is not always one,
+that of 2^x*y*f(z) depends on which factor came first."
+  (if (atom e)
+      (prin1-to-string e)
+      (let ((parts (mapcar #'fuzz-sorted (cdr e))))
+        (format nil "(~a~{ ~a~})" (caar e) (if (member (caar e) '(mplus mtimes)) (sort parts #'string<) parts)))))
+
+(defun fuzz-same-p (e other)
+  (or (alike1 e other) (string= (fuzz-sorted e) (fuzz-sorted other))))
+
+(defun fuzz-reads-back-p (e)
+  "The laws: E is read back as it was spelled, and its settled text is spelled the same when it was read."
+  (let ((text (archive-settled-text e)))
+    (and (fuzz-same-p e (archive-parse-value (archive-spell e) :relations t))
+         (string= text (archive-spell (archive-parse-value text :relations t))))))
 
 (defun fuzz-first-failure (count seed law)
-  "[] if LAW returns nil for COUNT random cases, else a list of the case and what it returned."
+  "[] if LAW returns nil for COUNT random cases, else a list of the case, the generator's state and what it returned."
   (let ((*fuzz-state* seed))
     (loop for case from 1 to count
-          do (let* ((start (get-internal-run-time)) (state *fuzz-state*) (failure (funcall law))
-                    (seconds (/ (- (get-internal-run-time) start) internal-time-units-per-second)))
-               (when (> seconds *fuzz-seconds*)
-                 (setq failure (format nil "took ~,1f seconds~@[; ~a~]" (float seconds) failure)))
+          do (let* ((state *fuzz-state*) (failure (funcall law)))
                (when failure
                  (return (list '(mlist simp) case state failure))))
           finally (return (list '(mlist simp))))))
+
+(defun fuzz-in-time (function)
+  "Two values: what FUNCTION returns, and nil or the message of the error that ended it, or that it took too long."
+  (let ((start (get-internal-run-time)))
+    (multiple-value-bind (value trouble) (core-caught function)
+      (let ((seconds (/ (- (get-internal-run-time) start) internal-time-units-per-second)))
+        (values value
+                (if (> seconds *fuzz-seconds*) (format nil "took ~,1f seconds~@[; ~a~]" (float seconds) trouble) trouble))))))
 
 (defun $fuzz_expressions (count seed)
   "[] if COUNT random values are read back as they were spelled, else the first that is not."
   (fuzz-first-failure
    count seed
    (lambda ()
-     (let* ((e (or (fuzz-settled (fuzz-value (1+ (fuzz-random 5)))) 0)) (same nil)
-            (trouble (nth-value 1 (core-caught (lambda () (setq same (fuzz-reads-back-p e)))))))
-       (cond (trouble trouble)
-             ((not same) (archive-spell e)))))))
+     (let ((e (fuzz-settled (fuzz-value (1+ (fuzz-random 5))))))
+       (multiple-value-bind (same trouble) (fuzz-in-time (lambda () (fuzz-reads-back-p e)))
+         (cond (trouble (format nil "~a: ~a" trouble (core-words (list e))))
+               ((not same) (archive-spell e))))))))
 
 (defun $fuzz_doubles (count seed)
   "[] if COUNT random doubles are read back bit for bit."
@@ -166,11 +190,9 @@
 
 (defun fuzz-read (bytes)
   "Reads BYTES as an archive and reads back what its values are spelled as; nil, or what is wrong."
-  (let* ((trouble nil)
-         (text (nth-value 1 (core-caught (lambda () (setq trouble (fuzz-read-back bytes)))))))
-    (cond ((null text) trouble)
-          ((search "failed inside" text) text)
-          ((search "memory is exhausted" text) text)
+  (multiple-value-bind (difference text) (fuzz-in-time (lambda () (fuzz-read-back bytes)))
+    (cond ((null text) difference)
+          ((or (search "failed inside" text) (search "memory is exhausted" text) (search "took " text)) text)
           ((not (fuzz-placed-p text)) (format nil "no place: ~a" text)))))
 
 (defun fuzz-placed-p (text)
@@ -182,7 +204,7 @@
     (dolist (section (sheet-sections sheet))
       (dolist (entry (section-entries section))
         (let ((value (archive-entry-parsed entry :relations t)))
-          (unless (alike1 value (fuzz-again value))
+          (unless (fuzz-same-p value (fuzz-again value))
             (return-from fuzz-read-back (format nil "not read back: ~a" (archive-spell value)))))))))
 
 (defun fuzz-again (value)
@@ -242,11 +264,8 @@
 
 (defun $grammar_kind (text)
   "`read', or `refused' with a place, and in time; else what went wrong."
-  (let* ((start (get-internal-run-time))
-         (trouble (nth-value 1 (core-caught (lambda () (archive-parse-value text :file "fuzz.txt" :relations t)))))
-         (seconds (/ (- (get-internal-run-time) start) internal-time-units-per-second)))
-    (cond ((> seconds *fuzz-seconds*) (format nil "took ~,1f seconds" (float seconds)))
-          ((null trouble) '$read)
+  (let ((trouble (nth-value 1 (fuzz-in-time (lambda () (archive-parse-value text :file "fuzz.txt" :relations t))))))
+    (cond ((null trouble) '$read)
           ((or (search "failed inside" trouble) (not (fuzz-placed-p trouble))) trouble)
           (t '$refused))))
 

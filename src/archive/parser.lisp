@@ -60,6 +60,11 @@
                      (if (eq kind :relation) "; = and comparisons stand in lists" "")))
     e))
 
+;; `every' and its like take time in squares in GCL: long lists go through `loop'.
+
+(defun archive-all-scalar-p (list)
+  (loop for e in list always (eq (archive-form-kind e) :scalar)))
+
 (defun archive-expect-scalar (reader position e)
   (archive-expect-kind reader position e "an expression" :scalar))
 
@@ -251,7 +256,7 @@
 
 (defun archive-multiply-scalars (factors)
   "The product of FACTORS; a divisor is still a divisor where results are doubles, so that 1.0/3 is rounded once."
-  (if (notany #'archive-divisor-p factors)
+  (if (loop for factor in factors never (archive-divisor-p factor))
       (archive-product factors)
       (let ((product (car factors)))
         (dolist (factor (cdr factors) product)
@@ -266,18 +271,18 @@
   (loop for place in places for term in terms
         do (archive-expect-kind reader place term "an expression" :scalar :list :matrix))
   (archive-computed (reader (car places))
-    (if (every (lambda (term) (eq (archive-form-kind term) :scalar)) terms)
+    (if (archive-all-scalar-p terms)
         (archive-sum terms)
         (archive-add-elements terms))))
 
 (defun archive-add-elements (terms)
-  (if (every (lambda (term) (eq (archive-form-kind term) :scalar)) terms)
+  (if (archive-all-scalar-p terms)
       (archive-sum terms)
       (let ((first (car terms)))
         (unless (and (member (archive-form-kind first) '(:list :matrix))
-                     (every (lambda (term) (and (eq (archive-form-kind term) (archive-form-kind first))
-                                                (= (length term) (length first))))
-                            terms))
+                     (loop for term in terms
+                           always (and (eq (archive-form-kind term) (archive-form-kind first))
+                                       (= (length term) (length first)))))
           (archive-refuse "a sum of lists or matrices that differ in shape"))
         (cons (car first) (apply #'mapcar (lambda (&rest parts) (archive-add-elements parts)) (mapcar #'cdr terms))))))
 
@@ -451,7 +456,7 @@
     (unless (or (archive-substitution-p where)
                 (and (eq (archive-form-kind where) :list) (cdr where) (every #'archive-substitution-p (cdr where))))
       (archive-fault reader (cadr places) "expected name = value, or a list of these, as second argument of at"))
-    (archive-inert '%at arguments)))
+    (archive-inert '%at (list e (if (and (eq (archive-form-kind where) :list) (null (cddr where))) (cadr where) where)))))
 
 (defun archive-substitution-p (e)
   "True for name = value, where the name may be a derivative."
@@ -465,7 +470,7 @@
            (unless (and (cdr row) (= (length row) (length (car arguments))))
              (archive-fault reader place "a row of ~d elements in a matrix whose first row has ~d"
                             (length (cdr row)) (length (cdar arguments))))
-           (unless (every (lambda (e) (eq (archive-form-kind e) :scalar)) (cdr row))
+           (unless (archive-all-scalar-p (cdr row))
              (archive-fault reader place "the elements of a matrix are expressions")))
   (archive-inert '$matrix arguments))
 

@@ -213,7 +213,7 @@
 (defun archive-product (factors)
   "The product of simplified FACTORS."
   (cond ((null (cdr factors)) (car factors))
-        ((every #'mnump factors) (archive-number-product factors))
+        ((loop for factor in factors always (mnump factor)) (archive-number-product factors))
         (t (archive-check-factors factors)
            (archive-check-product (archive-simplified (list* '(mtimes) (archive-ordered factors)))))))
 
@@ -237,7 +237,7 @@
   (when (or (> (length factors) *archive-factors*)
             (> (loop for f in factors sum (length (archive-factors-of f))) *archive-factors*))
     (archive-refuse "a product of more than ~d factors" *archive-factors*))
-  (when (> (reduce #'+ (mapcar #'archive-weight factors)) *archive-weight*)
+  (when (> (loop for factor in factors sum (archive-weight factor)) *archive-weight*)
     (archive-refuse "a product whose numbers have more than ~d digits together" *archive-weight*))
   (archive-check-common-root factors))
 
@@ -336,7 +336,7 @@
   "True when the symbol WORD is an atom or an operator in E."
   (cond ((atom e) (eq e word))
         ((eq (caar e) word) t)
-        (t (some (lambda (part) (archive-contains-p part word)) (cdr e)))))
+        (t (loop for part in (cdr e) thereis (archive-contains-p part word)))))
 
 (defun archive-modest-p (e)
   "True when E is so small that Maxima may expand it: few nodes, short numbers, small exponents."
@@ -347,7 +347,7 @@
                     (cond ((mnump e) (< (archive-digits e) 4))
                           ((atom e) t)
                           ((mexptp e) (and (visit (cadr e)) (archive-small-exponent-p (caddr e)) (visit (caddr e))))
-                          (t (every #'visit (cdr e)))))))
+                          (t (loop for part in (cdr e) always (visit part)))))))
       (visit e))))
 
 (defun archive-small-exponent-p (e)

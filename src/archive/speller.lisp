@@ -8,7 +8,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/tokens" "archive/parser"))
 
-(defvar *archive-out* nil "The stream that is written to.")
+(defvar *archive-out* nil "What is written, piece by piece, the last one first. (GCL's string streams take time in squares.)")
 (defvar *archive-spelled-depth* 0 "Levels of nesting so far.")
 
 (defparameter *archive-levels*
@@ -28,7 +28,14 @@
 (defun archive-unspellable (control &rest arguments)
   (core-error "an archive cannot hold ~?" control arguments))
 
-(defun archive-put (text) (write-string text *archive-out*))
+(defun archive-put (text) (push text *archive-out*))
+
+(defun archive-joined (pieces)
+  "The strings PIECES as one."
+  (let ((text (make-string (loop for piece in pieces sum (length piece)))) (position 0))
+    (dolist (piece pieces text)
+      (replace text piece :start1 position)
+      (incf position (length piece)))))
 
 ;; Numbers
 
@@ -217,7 +224,7 @@
         do (when (or (and (< (char-code c) 32) (char/= c #\Tab)) (= (char-code c) 127))
              (archive-unspellable "a string with line ends or control characters"))
            (when (find c "\\\"") (archive-put "\\"))
-           (write-char c *archive-out*))
+           (archive-put (string c)))
   (archive-put "\""))
 
 (defun archive-terms-in-order (sum)
@@ -329,8 +336,9 @@
   "The text of the Maxima expression E in the archive's grammar."
   (let ((*archive-spelled-depth* 0)
         (e (if (archive-contains-p e 'mrat) ($totaldisrep e) e)))
-    (with-output-to-string (*archive-out*)
-      (archive-spell-at e (archive-level :any)))))
+    (let ((*archive-out* '()))
+      (archive-spell-at e (archive-level :any))
+      (archive-joined (nreverse *archive-out*)))))
 
 (defun archive-settled-text (e &key doubles)
   "The text of E that is spelled the same after it was read: Maxima may order the factors of a product anew when it is read."

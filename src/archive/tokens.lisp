@@ -200,11 +200,16 @@
                   (t (write-char c out)))))))
     (archive-token! reader :string at)))
 
+(defun archive-primes-end (text position end)
+  (declare (type archive-text-string text) (type fixnum position end))
+  (loop while (and (< position end) (char= (schar text position) #\')) do (incf position))
+  position)
+
 (defun archive-read-name! (reader)
   "Takes the name at the reader's position with the primes that stand directly after it."
   (let* ((text (reader-text reader)) (end (reader-end reader)) (from (reader-position reader))
          (to (archive-word-end text from end))
-         (after (or (position #\' text :start to :end end :test-not #'char=) end)))
+         (after (archive-primes-end text to end)))
     (setf (reader-value reader) (subseq text from to))
     (archive-token! reader :name to)
     (setf (reader-primes reader) (- after to)
@@ -233,17 +238,15 @@
   kind)
 
 (defparameter *archive-signs*
-  '(("->" . :arrow) ("<=" . :less-or-equal) (">=" . :greater-or-equal)
-    ("<" . :less) (">" . :greater) ("=" . :equal) ("+" . :plus) ("-" . :minus) ("*" . :times) ("/" . :over) ("^" . :power)
-    ("'" . :quote) ("(" . :open) (")" . :close) ("[" . :open-list) ("]" . :close-list) ("{" . :open-brace)
-    ("}" . :close-brace) ("," . :comma) (":" . :colon))
-  "Signs of the grammar, the longer ones first.")
+  '((#\< . :less) (#\> . :greater) (#\= . :equal) (#\+ . :plus) (#\- . :minus) (#\* . :times) (#\/ . :over) (#\^ . :power)
+    (#\' . :quote) (#\( . :open) (#\) . :close) (#\[ . :open-list) (#\] . :close-list) (#\{ . :open-brace)
+    (#\} . :close-brace) (#\, . :comma) (#\: . :colon))
+  "Signs of one character.")
 
-(defun archive-sign-at (text position end)
-  (find-if (lambda (sign)
-             (let ((to (+ position (length (car sign)))))
-               (and (<= to end) (string= (car sign) text :start2 position :end2 to))))
-           *archive-signs*))
+(defun archive-long-sign (first second)
+  "The kind of the sign of two characters FIRST and SECOND, or nil."
+  (cond ((char= second #\=) (case first (#\< :less-or-equal) (#\> :greater-or-equal)))
+        ((char= second #\>) (and (char= first #\-) :arrow))))
 
 (defun archive-sign-advice (c)
   "What to write instead of a character that the grammar does not know."
@@ -257,12 +260,14 @@
     (t "a name has the letters a to z, A to Z, digits and _ only")))
 
 (defun archive-read-sign! (reader)
-  (let* ((text (reader-text reader)) (from (reader-position reader))
-         (sign (archive-sign-at text from (reader-end reader))))
-    (unless sign
+  (let* ((text (reader-text reader)) (from (reader-position reader)) (end (reader-end reader))
+         (first (char text from))
+         (long (and (< (1+ from) end) (archive-long-sign first (char text (1+ from)))))
+         (kind (or long (cdr (assoc first *archive-signs*)))))
+    (unless kind
       (archive-fault reader from "found `~a', expected a value: ~a"
-                     (archive-character-shown text from (reader-end reader)) (archive-sign-advice (char text from))))
-    (archive-token! reader (cdr sign) (+ from (length (car sign))))))
+                     (archive-character-shown text from end) (archive-sign-advice first)))
+    (archive-token! reader kind (+ from (if long 2 1)))))
 
 (defun archive-character-shown (text position end)
   "The character at POSITION, whole where characters are bytes."
