@@ -12,6 +12,8 @@
 
 (defvar *algebra-may-give-up* nil "true: the guard throws algebra-too-large, no error")
 
+(defvar *algebra-advice* nil "what else helps against too large a result: another form, where there is one")
+
 (defun algebra-size (e)
   (let ((nodes 0))
     (declare (fixnum nodes))
@@ -24,11 +26,11 @@
 (defun $algebra_size (e)
   (algebra-size e))
 
-(defun algebra-guard (predicted what &optional (advice "take form = factored or program"))
+(defun algebra-guard (predicted what &optional (advice *algebra-advice*))
   (when (> predicted *algebra-limit*)
     (when *algebra-may-give-up* (throw 'algebra-too-large 'too-large))
     (core-error "~A would have about ~A terms, more than the ~A that are safe; ~
-                 give numbers to some parameters or ~A"
+                 give numbers to some parameters~@[ or ~A~]"
                 what (algebra-about predicted) *algebra-limit* advice)))
 
 (defun algebra-about (n)

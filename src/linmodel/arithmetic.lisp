@@ -20,7 +20,8 @@
   "FUNCTION of the arithmetic for FORM; auto is canonical where that is short."
   (ecase form
     ($factored (funcall function (linmodel-general-arithmetic)))
-    ($canonical (linmodel-compute-canonical function))
+    ($canonical (let ((*algebra-advice* "take form = factored"))
+                  (linmodel-compute-canonical function)))
     ($auto (let ((found (core-attempt (lambda ()
                                         (let ((*algebra-limit* *linmodel-moderate*))
                                           (linmodel-compute-canonical function))))))
