@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 598487753 38420
+;;; Made by tools/doc; checksum of doc/*.texi: 1990159980 40589
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -40,6 +40,8 @@
 ("ForceStructure" . ("dynarch.info" 34587 995 "Definitions for Analysis"))
 ("KelvinChetaev" . ("dynarch.info" 35583 1727 "Definitions for Analysis"))
 ("Stability" . ("dynarch.info" 37311 995 "Definitions for Analysis"))
+("SecondVariation" . ("dynarch.info" 38307 765 "Definitions for Analysis"))
+("RouthLyapunov" . ("dynarch.info" 39073 1390 "Definitions for Analysis"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 795 930))
@@ -48,6 +50,6 @@
 ("Definitions for velocities" . ("dynarch.info" 4006 1723))
 ("Definitions for LinModel" . ("dynarch.info" 5863 10039))
 ("Definitions for Circuits" . ("dynarch.info" 16034 7038))
-("Definitions for Analysis" . ("dynarch.info" 23207 15099))
+("Definitions for Analysis" . ("dynarch.info" 23207 17256))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

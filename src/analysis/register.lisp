@@ -10,6 +10,11 @@
 (defparameter *analysis-none* '((mlist simp)))
 (defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
 
+(defparameter *analysis-where* (list "where" *analysis-none*))
+(defparameter *analysis-laws* (list "laws" *analysis-none*))
+(defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
+(defparameter *analysis-variables* (list "variables" *analysis-none*))
+
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
 
 (core-rule-same-as "state_equations" '("circuit") "StateEquations")
@@ -25,27 +30,27 @@
 (core-public "StationarySolutions"
   :forms '(("function" "K" "variables")) :options '("unknowns" "where") :kinds *analysis-motions*)
 (core-rule "StationarySolutions" '("function") "analysis/stationary" "analysis_stationary_solutions"
-  "K" "variables" (list "unknowns" *analysis-none*) (list "where" *analysis-none*))
+  "K" "variables" *analysis-unknowns* *analysis-where*)
 (core-rule "StationarySolutions" *analysis-motions* "analysis/stationary" "analysis_stationary_motions"
-  "RouthFunction" "remaining_coordinates" (list "unknowns" *analysis-none*) (list "where" *analysis-none*))
+  "RouthFunction" "remaining_coordinates" *analysis-unknowns* *analysis-where*)
 
 (core-public "InvariantManifolds"
   :forms '(("function" "K" "variables")) :options '("extend" "on" "unknowns" "cyclic") :kinds *analysis-motions*)
 (core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds" "analysis_extended_routh"
   "RouthFunction" "remaining_coordinates" "extend" "cyclic_integrals")
-(core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds" "analysis_extended_routh"
-  "K" "variables" "extend" (list "cyclic_integrals" *analysis-none*))
+(core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds" "analysis_extended_function"
+  "K" "variables" "extend")
 (core-rule "InvariantManifolds" '("function") "analysis/manifolds" "analysis_invariant_manifolds"
-  "K" "variables" (list "unknowns" *analysis-none*) (list "on" *analysis-none*))
+  "K" "variables" *analysis-unknowns* (list "on" *analysis-none*))
 
 (core-public "Equilibria"
   :forms '(("equations" "equations" "variables")) :options '("unknowns" "where") :kinds *analysis-kinds*)
 (core-rule "Equilibria" *analysis-states* "analysis/equilibria" "analysis_equilibria"
-  "state_equations" (list "variables" *analysis-none*) (list "unknowns" *analysis-none*) (list "where" *analysis-none*)
-  (list "laws" *analysis-none*))
+  "state_equations" *analysis-variables* *analysis-unknowns* *analysis-where*
+  *analysis-laws*)
 (core-rule "Equilibria" *analysis-motions* "analysis/equilibria" "analysis_equilibria"
-  "LagrangeEquations" "coordinates" (list "unknowns" *analysis-none*) (list "where" *analysis-none*)
-  (list "laws" *analysis-none*))
+  "LagrangeEquations" "coordinates" *analysis-unknowns* *analysis-where*
+  *analysis-laws*)
 
 ;;; First approximation and criteria
 
@@ -53,10 +58,10 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates" "solution") ("equations" "equations" "solution"))
   :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
 (core-rule "FirstApproximation" *analysis-states* "analysis/first_approximation" "analysis_first_approximation_state"
-  "state_equations" (list "variables" *analysis-none*) "solution" (list "where" *analysis-none*)
-  (list "laws" *analysis-none*) (list "unknowns" *analysis-none*))
+  "state_equations" *analysis-variables* "solution" *analysis-where*
+  *analysis-laws* *analysis-unknowns*)
 (core-rule "FirstApproximation" *analysis-motions* "analysis/first_approximation" "analysis_first_approximation_motion"
-  "LagrangeEquations" "coordinates" "solution" (list "where" *analysis-none*) (list "laws" *analysis-none*))
+  "LagrangeEquations" "coordinates" "solution" *analysis-where* *analysis-laws*)
 
 (core-rule-field "A" *analysis-states* "FirstApproximation" "A")
 (core-rule-field "M" *analysis-motions* "FirstApproximation" "M")
@@ -84,10 +89,24 @@
   :forms '(("equations" "equations" "solution"))
   :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
 (core-rule "Stability" *analysis-states* "analysis/stability" "analysis_stability_state"
-  "state_equations" (list "variables" *analysis-none*) "solution" (list "where" *analysis-none*)
-  (list "laws" *analysis-none*) (list "unknowns" *analysis-none*))
-(core-rule "Stability" *analysis-motions* "analysis/stability" "analysis_stability_motion"
-  "LagrangeEquations" "coordinates" "solution" (list "where" *analysis-none*) (list "laws" *analysis-none*))
+  "state_equations" *analysis-variables* "solution" *analysis-where*
+  *analysis-laws* *analysis-unknowns*)
+(core-rule "Stability" *analysis-motions* "analysis/energy" "analysis_stability_lagrangian"
+  "Lagrangian" "coordinates" "LagrangeEquations" "solution" *analysis-where* *analysis-laws*
+  '("rayleigh" 0) (list "forces" *analysis-none*) (list "constraints" *analysis-none*) (list "nonholonomic" *analysis-none*))
+
+;;; The method of Routh and Lyapunov
+
+(core-public "SecondVariation" :forms '(("function" "K" "variables" "solution" "&optional" "integrals")) :options '("manifold"))
+(core-rule "SecondVariation" '("function") "analysis/variation" "analysis_second_variation"
+  "K" "variables" "solution" (list "integrals" *analysis-none*) (list "manifold" *analysis-none*))
+
+(core-public "RouthLyapunov"
+  :forms '(("equations" "equations" "integrals" "variables"))
+  :options '("where" "unknowns" "multipliers") :kinds '("equations"))
+(core-rule "RouthLyapunov" '("equations") "analysis/routh_lyapunov" "analysis_routh_lyapunov"
+  "equations" "integrals" "variables" *analysis-unknowns* *analysis-where* *analysis-laws*
+  (list "multipliers" *analysis-none*))
 
 ;;; Matrices and forms
 

@@ -49,10 +49,9 @@
 (defun archive-run (call)
   "The value of the call's target, computed in the guard; new steps are saved."
   (setq *core-started* (get-internal-real-time))
-  (let* ((target (core-public-name (archive-call-public call)))
-         (value (core-guarded (archive-call-facts call)
-                              (lambda () (archive-abbreviated call (archive-value call target))))))
-    (archive-save-steps call)
-    value))
+  (core-guarded (archive-call-facts call)
+                (lambda ()
+                  (prog1 (archive-abbreviated call (archive-value call (core-public-name (archive-call-public call))))
+                    (archive-save-steps call)))))
 
 (setq *core-dispatcher* #'archive-dispatch)

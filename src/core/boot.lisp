@@ -11,7 +11,8 @@
 (defvar *core-archive* nil "The archive a call works on, while it runs.")
 
 (setq *core-root*
-      (let* ((name (namestring (or *load-truename* (truename *load-pathname*))))
+      (let* ((file (or *load-truename* (truename *load-pathname*)))
+             (name #+sbcl (sb-ext:native-namestring file) #-sbcl (namestring file))
              (end (search "src/core/boot." name :from-end t)))
         (subseq name 0 end)))
 
@@ -86,6 +87,12 @@
      (when made (rename-file made (core-pathname target)))
      target)))
 
+(defun core-compiler-p ()
+  "Whether Lisp can be compiled here: GCL needs the C compiler it was built with, which a distribution may leave out."
+  #-gcl t
+  #+gcl (let* ((command (string-left-trim " " compiler::*cc*)) (name (subseq command 0 (position #\Space command))))
+          (some (lambda (folder) (probe-file (concatenate 'string folder name))) '("" "/usr/bin/" "/usr/local/bin/" "/bin/"))))
+
 (defun core-load-lisp (part source)
   (let* ((room (subseq part 0 (position #\/ part)))
          (folder (core-cache-folder))
@@ -93,7 +100,7 @@
                       (format nil "~a~a-~36r.~a" folder (substitute #\- #\/ part) (core-part-key room)
                               (pathname-type (compile-file-pathname "x.lisp")))))
          (compiled (and target (or (core-existing-file target)
-                                   (and (core-compile-to source target) (core-existing-file target))))))
+                                   (and (core-compiler-p) (core-compile-to source target) (core-existing-file target))))))
     (unless (and compiled (ignore-errors (core-quietly (lambda () (load (core-pathname compiled)))) t))
       (load (core-pathname source)))
     t))
