@@ -150,10 +150,16 @@
         (unless (member name known :test #'equal)
           (core-error "there is no option ~a; the options are ~{~a~^, ~}" name (sort (copy-list known) #'string<)))
         (archive-check-option name (caddr equation))
-        (archive-give call name (caddr equation))
-        (when (and (archive-call-archive call) (member name (archive-overrulable-keys (archive-call-kind call)) :test #'equal))
-          (archive-overrule call name (caddr equation)))))
+        (archive-give-option call name (caddr equation))))
     (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil))))
+
+(defun archive-give-option (call name value)
+  "A key that a rule builds on, as rayleigh where there are dampers, is given to the rule only."
+  (let* ((kind (archive-call-kind call))
+         (key (and (archive-call-archive call) (member name (archive-overrulable-keys kind) :test #'equal))))
+    (when key (archive-overrule call name value))
+    (unless (and key (core-find-rule name kind (constantly nil)))
+      (archive-give call name value))))
 
 (defun archive-overrule (call name value)
   (setf (archive-call-archive call) (archive-overruled (archive-call-archive call) name value)
