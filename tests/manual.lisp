@@ -36,12 +36,12 @@
     (loop for (name . lines) in (nreverse entries) collect (cons name (reverse lines)))))
 
 (defun manual-cells (lines)
-  "((kind . text) ..) of the LINES of an example; kind is #\\i for an input, #\\o for an answer."
+  "((kind . text) ..) of the LINES of an example; kind is #\\i for an input, #\\o for an answer. A heading may go on in the
+lines before."
   (let ((cells '()))
     (dolist (line lines (nreverse cells))
-      (if (manual-begins-p "(%" line)
-          (push (cons (char line 2) (subseq line (1+ (position #\) line)))) cells)
-          (setf (cdar cells) (format nil "~a~%~a" (cdar cells) line))))))
+      (cond ((manual-begins-p "(%" line) (push (cons (char line 2) (subseq line (1+ (position #\) line)))) cells))
+            (cells (setf (cdar cells) (format nil "~a~%~a" (cdar cells) line)))))))
 
 ;;; Examples
 
