@@ -5,6 +5,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "forms/exchange"))
+
 (defun forms-open-function-p (operator)
   "True for a function of the user: nothing in Maxima says what it is."
   (and (symbolp operator)
@@ -33,7 +36,7 @@
 
 (defun $forms_closed (e)
   "E with polynomials for its open functions."
-  (if (or (atom e) (member 'array (car e)))
+  (if (or (atom e) (member 'array (car e)) (forms-derivative-p e))
       e
       (let ((parts (mapcar #'$forms_closed (cdr e))))
         (case (caar e)

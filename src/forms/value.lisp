@@ -5,6 +5,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "forms/exchange"))
+
 (defconstant forms-digits 512)
 
 (defun forms-rational (e)
@@ -23,6 +26,7 @@
   (cond ((forms-rational e) (forms-fixed (forms-rational e)))
         ((symbolp e) (or (gethash e point) (forms-constant-value e known)))
         ((atom e) (forms-function-value (list '(mplus) e) '() known))
+        ((forms-derivative-p e) (forms-derivative-value e point))
         (t (flet ((value (part) (forms-fixed-value part point known)))
              (case (caar e)
                (mplus (loop for part in (cdr e) sum (value part)))
@@ -30,6 +34,13 @@
                (bigfloat (forms-fixed (forms-long-float-ratio e)))
                (mexpt (forms-fixed-power (value (cadr e)) (caddr e) #'value known))
                (t (forms-function-value e (mapcar #'value (cdr e)) known)))))))
+
+(defun forms-derivative-value (e point)
+  "The value of 'diff(q,t,n); those of all derivatives stand at the key %derivative."
+  (loop for (derivative . value) in (gethash '%derivative point)
+        when (and (eql (fourth e) (fourth derivative)) (alike1 (second e) (second derivative)))
+          return value
+        finally (forms-no-value e)))
 
 (defun forms-fixed-product (factors)
   (let ((product (car factors)))
@@ -68,10 +79,15 @@
   ;; ((bigfloat .. precision) mantissa exponent) is mantissa*2^(exponent - precision)
   (* (cadr x) (expt 2 (- (caddr x) (car (last (car x)))))))
 
+(defun forms-set-value (e value point)
+  (if (forms-derivative-p e)
+      (push (cons e value) (gethash '%derivative point))
+      (setf (gethash e point) value)))
+
 (defun $forms_value (e point)
-  "The value of E at POINT, equations name = rational number; false where it has none."
+  "The value of E at POINT, equations name = rational number or 'diff(q,t) = rational number; false where it has none."
   (let ((fixed (make-hash-table :test #'eq)) (known (make-hash-table :test #'equal)))
     (dolist (equation (cdr point))
-      (setf (gethash (second equation) fixed) (forms-fixed (forms-rational (third equation)))))
+      (forms-set-value (second equation) (forms-fixed (forms-rational (third equation))) fixed))
     (let ((value (catch 'forms-no-value (forms-fixed-value e fixed known))))
       (and value (div value (ash 1 forms-digits))))))
