@@ -78,3 +78,32 @@
   "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp))) '("form" $auto))
 (core-rule-given "hamiltonian" "HamiltonEquations" '("lagrangian") "forms/hamilton" "forms_hamilton_equations_of"
   "hamiltonian" "coordinates" '("momenta" ((mlist simp))) '("forces" ((mlist simp))) '("form" $auto))
+
+;;; Dirac
+
+(defparameter *forms-dirac-inputs*
+  '(("momenta" ((mlist simp))) ("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
+    ("nonholonomic" ((mlist simp)))))
+
+(core-public "DiracScheme"
+  :forms '(("lagrangian" "Lagrangian" "coordinates"))
+  :options '("momenta")
+  :kinds *forms-kinds*)
+(apply #'core-rule "DiracScheme" :any "forms/dirac" "forms_dirac_scheme" "Lagrangian" "coordinates" *forms-dirac-inputs*)
+
+(core-public "DiracBracket"
+  :forms '(("lagrangian" "Lagrangian" "coordinates" "f" "g"))
+  :trailing '("f" "g")
+  :options '("momenta")
+  :kinds *forms-kinds*)
+(apply #'core-rule "DiracBracket" :any "forms/dirac" "forms_dirac_bracket" "Lagrangian" "coordinates" "f" "g" *forms-dirac-inputs*)
+
+;;; First integrals
+
+(core-public "FirstIntegrals"
+  :forms '(("lagrangian" "Lagrangian" "coordinates"))
+  :options '("rayleigh" "forces" "constraints" "nonholonomic")
+  :kinds *forms-kinds*)
+(core-rule "FirstIntegrals" :any "forms/integrals" "forms_first_integrals"
+  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
+  '("nonholonomic" ((mlist simp))) '("form" $auto))
