@@ -20,3 +20,5 @@
 (core-rule "coordinates" '("mechanical") "linmodel/loads" "linmodel_coordinates" "description")
 (core-rule "rayleigh" '("mechanical") "linmodel/loads" "linmodel_rayleigh" "description")
 (core-rule "forces" '("mechanical") "linmodel/loads" "linmodel_forces" "description")
+(core-rule "constraints" '("mechanical") "linmodel/loads" "linmodel_constraints" "description")
+(core-rule "nonholonomic" '("mechanical") "linmodel/loads" "linmodel_nonholonomic" "description")
