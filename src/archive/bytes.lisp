@@ -9,7 +9,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/tokens"))
 
-(defvar *archive-file-size* (* 16 1024 1024) "The largest file that is read, in bytes.")
+(defvar *archive-file-size* (* 8 1024 1024) "The largest file that is read, in bytes.")
 
 ;; What a name leads to
 

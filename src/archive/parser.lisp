@@ -504,7 +504,8 @@
 (defun archive-parse-reader! (reader &key relations)
   "The value that READER stands on, up to its end; with RELATIONS it may be an equation or a condition."
   (archive-with-plain-simplifier
-    (let* ((*archive-reader* reader) (*archive-position* (reader-from reader)) (from (reader-from reader)))
+    (let* ((*archive-reader* reader) (*archive-position* (reader-from reader)) (from (reader-from reader))
+           (*archive-work* (or *archive-work* (list 0))))
       (when (eq (reader-kind reader) :end)
         (archive-fault reader from "an empty value"))
       (let ((value (handler-case (archive-parse-expression! reader)

@@ -31,6 +31,9 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 
 ;; Lines
 
+(defparameter *archive-sections* 5000 "The most sections of an archive.")
+(defparameter *archive-entries* 20000 "The most entries of an archive.")
+
 (defstruct (archive-line-range (:conc-name line-))
   "A line of the text: its NUMBER, characters START to END without the line end, and NEXT, where the next one begins."
   (number 1) (start 0) (end 0) (next 0))
@@ -88,6 +91,10 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
            (archive-line-fault sheet line (line-start line) "the section [~a] stands twice, first in line ~d"
                                (section-name section) (section-line first))))))
 
+(defun archive-check-count (sheet line number limit what)
+  (when (> number limit)
+    (archive-line-fault sheet line (line-start line) "more than ~d ~a" limit what)))
+
 (defun archive-entry-of-line (sheet section line)
   "The entry that begins in LINE of SECTION; more lines may follow."
   (if (assoc (section-name section) *archive-row-sections* :test #'string=)
@@ -127,7 +134,7 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
          (sheet (make-archive-sheet :text text :file file :newline (archive-line-end-of text)))
          (section (make-archive-section :name "archive" :start (archive-text-start text) :end (archive-text-start text)))
          (sections (list section))
-         (entry nil) (start (archive-text-start text)) (number 1))
+         (entry nil) (start (archive-text-start text)) (number 1) (section-count 0) (entry-count 0))
     (loop while (< start (length text))
           do (let* ((line (archive-line-at text start number)) (content (archive-line-content text line)))
                (when content
@@ -137,9 +144,11 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
                         (archive-continue-entry entry section line))
                        ((char= (char text content) #\[)
                         (setq section (archive-section-of-header sheet line) entry nil)
+                        (archive-check-count sheet line (incf section-count) *archive-sections* "sections")
                         (archive-check-section-name sheet section line sections)
                         (push section sections))
                        (t
+                        (archive-check-count sheet line (incf entry-count) *archive-entries* "entries")
                         (setq entry (archive-entry-of-line sheet section line))
                         (push entry (section-entries section))
                         (setf (section-end section) (line-end line)))))
@@ -178,6 +187,10 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 
 (defun archive-parse-sheet (sheet)
   "Parses the values of the description; results are left for later."
+  (let ((*archive-work* (list 0)))
+    (archive-parse-sections sheet)))
+
+(defun archive-parse-sections (sheet)
   (dolist (section (sheet-sections sheet))
     (unless (archive-result-section-p section)
       (let ((row (cdr (assoc (section-name section) *archive-row-sections* :test #'string=))))

@@ -13,6 +13,8 @@
 (defvar *archive-position* 0 "Where the expression begins that is being simplified.")
 
 (defparameter *archive-factors* 4000 "The most factors in one product.")
+(defparameter *archive-steps* 20000000 "The most steps that the products of one archive may take, about ten seconds.")
+(defvar *archive-work* nil "A list of the number of steps that the products of an archive have taken.")
 (defparameter *archive-weight* 20000 "The most digits that the numbers of one product may have together.")
 (defparameter *archive-root-order* 1000 "The largest order of a root of a number.")
 
@@ -234,12 +236,18 @@
         (t 0)))
 
 (defun archive-check-factors (factors)
-  (when (or (> (length factors) *archive-factors*)
-            (> (loop for f in factors sum (length (archive-factors-of f))) *archive-factors*))
-    (archive-refuse "a product of more than ~d factors" *archive-factors*))
+  (let ((number (loop for f in factors sum (length (archive-factors-of f)))))
+    (when (> number *archive-factors*)
+      (archive-refuse "a product of more than ~d factors" *archive-factors*))
+    (archive-count-work (* number number)))
   (when (> (loop for factor in factors sum (archive-weight factor)) *archive-weight*)
     (archive-refuse "a product whose numbers have more than ~d digits together" *archive-weight*))
   (archive-check-common-root factors))
+
+(defun archive-count-work (steps)
+  (when *archive-work*
+    (when (> (incf (car *archive-work*) steps) *archive-steps*)
+      (archive-refuse "products too long and too many to be simplified"))))
 
 (defun archive-check-common-root (factors)
   "An error if roots of numbers in FACTORS would meet in a root of too high an order."
