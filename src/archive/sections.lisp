@@ -31,7 +31,7 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 
 ;; Lines
 
-(defparameter *archive-sections* 5000 "The most sections of an archive.")
+(defparameter *archive-most-sections* 5000 "The most sections of an archive.")
 (defparameter *archive-entries* 20000 "The most entries of an archive.")
 
 (defstruct (archive-line-range (:conc-name line-))
@@ -144,7 +144,7 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
                         (archive-continue-entry entry section line))
                        ((char= (char text content) #\[)
                         (setq section (archive-section-of-header sheet line) entry nil)
-                        (archive-check-count sheet line (incf section-count) *archive-sections* "sections")
+                        (archive-check-count sheet line (incf section-count) *archive-most-sections* "sections")
                         (archive-check-section-name sheet section line sections)
                         (push section sections))
                        (t
