@@ -151,6 +151,34 @@ where L is not served or too large."
                           collect (forms-written (forms-inertia momentum derivation))))
               (forms-written (forms-right-sides momenta derivation))))))))
 
+(defun $forms_ring_quadratics (plain q v)
+  "[A, a, A0] of L = v.A.v/2 + a.v + A0; false where the ring does not serve or L is no such sum."
+  (forms-unless-too-large
+   (forms-in-ring plain q v '((mlist simp)) '((mlist simp))
+                  (lambda (derivation)
+                    (let* ((momenta (forms-momenta derivation))
+                           (inertia (loop for momentum in momenta
+                                          collect (forms-inertia momentum derivation)))
+                           (variables (forms-derivation-velocities derivation)))
+                      (when (every (lambda (row) (forms-free-of-p row variables)) inertia)
+                        (list '(mlist simp)
+                              (cons '($matrix simp) (mapcar #'forms-written inertia))
+                              (forms-written (forms-at-rest momenta variables))
+                              (cadr (forms-written
+                                     (forms-at-rest
+                                      (list (forms-derivation-function derivation))
+                                      variables))))))))))
+
+(defun forms-free-of-p (quotients variables)
+  (notany (lambda (quotient)
+            (some (lambda (variable) (algebra-occurs-p variable (car quotient))) variables))
+          quotients))
+
+(defun forms-at-rest (quotients variables)
+  (loop for (p . d) in quotients
+        do (dolist (variable variables) (setq p (pcsubsty 0 variable p)))
+        collect (cons p d)))
+
 (defun $forms_residuals (m a f)
   "The rows of M a - f for numbers to be put in: nothing is multiplied out or collected."
   (cons '(mlist simp)

@@ -1,0 +1,119 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Legendre's transformation needs b.A^-1.b/2: with the cofactors C of A it is b.C.b/(2 det A), all
+;;; minors being computed once. Coordinates without products in A have fractions of their own.
+;;; Numerator and determinant are polynomials in the kernels (canonical) or sums of products that
+;;; nest as the minors do (factored); the length of the latter is known before they are formed,
+;;; by the same expansion over numbers.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/linear" "forms/derivation"))
+
+(defun $forms_inverse_form (a b form)
+  "b.A^-1.b/2 for a symmetric regular A."
+  (let ((rows (mapcar #'cdr (cdr a))) (b (cdr b)))
+    (addn (loop for block in (forms-blocks rows)
+                collect (forms-block-form (forms-chosen-rows block rows)
+                                          (forms-chosen block b)
+                                          form))
+          nil)))
+
+(defun forms-block-form (rows b form)
+  (ecase form
+    ($canonical (let ((*algebra-advice* "take form = factored"))
+                  (forms-canonical-form rows b)))
+    ($factored (forms-nested-form rows b))
+    ($auto (let ((found (catch 'algebra-too-large
+                          (let ((*algebra-may-give-up* t) (*algebra-limit* 60000))
+                            (forms-canonical-form rows b)))))
+             (if (eq found 'too-large) (forms-nested-form rows b) found)))))
+
+;;; Blocks: indices that products join.
+
+(defun forms-blocks (rows)
+  "Lists of indices; the element i,j of ROWS is 0 for i and j of different lists."
+  (let ((waiting (loop for i below (length rows) collect i)))
+    (loop while waiting
+          collect (let ((block (forms-joined (list (car waiting)) rows)))
+                    (setq waiting (set-difference waiting block))
+                    (setq waiting (sort waiting #'<))
+                    (sort block #'<)))))
+
+(defun forms-joined (block rows)
+  (let ((next (loop for j below (length rows)
+                    when (and (not (member j block))
+                              (some (lambda (i) (not (eql 0 (nth j (nth i rows))))) block))
+                      collect j)))
+    (if next (forms-joined (append next block) rows) (copy-list block))))
+
+(defun forms-chosen (indices items)
+  (mapcar (lambda (i) (nth i items)) indices))
+
+(defun forms-chosen-rows (indices rows)
+  (mapcar (lambda (row) (forms-chosen indices row)) (forms-chosen indices rows)))
+
+;;; Canonical.
+
+(defun forms-canonical-form (rows b)
+  (with-algebra-ring
+    (let* ((skeletons (mapcar (lambda (row) (mapcar #'algebra-scan row)) (cons b rows)))
+           (quotients (progn (algebra-order-kernels)
+                             (mapcar (lambda (row) (mapcar #'algebra-evaluate row)) skeletons)))
+           (found (algebra-inverse-form (cdr quotients) (car quotients))))
+      (algebra-guard-product (cdr found) (car found))
+      (algebra-general-reduced (cons (car found) (ptimes 2 (cdr found)))))))
+
+;;; Factored.
+
+(defun forms-minors (n entry add multiply)
+  "A function of (rows columns): the minor of the list ROWS in the set COLUMNS, by its first row."
+  (let ((known (make-hash-table :test #'equal)))
+    (labels ((minor (rows columns)
+               (if (null rows)
+                   1
+                   (let ((key (cons rows columns)))
+                     (or (gethash key known)
+                         (setf (gethash key known) (expanded (car rows) (cdr rows) columns))))))
+             (expanded (row rows columns)
+               (let ((sum 0) (sign 1))
+                 (dotimes (j n sum)
+                   (when (logbitp j columns)
+                     (unless (eql 0 (funcall entry row j))
+                       (setq sum (funcall add sum
+                                          (funcall multiply sign (funcall entry row j)
+                                                   (minor rows (logandc2 columns (ash 1 j)))))))
+                     (setq sign (- sign)))))))
+      #'minor)))
+
+(defun forms-nested-form (rows b)
+  (let* ((n (length rows))
+         (entries (make-array (list n n) :initial-contents rows)))
+    (algebra-guard (forms-quotient-of-minors
+                    n (lambda (i j) (let ((e (aref entries i j)))
+                                      (if (eql e 0) 0 (algebra-size e))))
+                    (mapcar #'algebra-size b)
+                    (lambda (x y) (+ x y))
+                    (lambda (&rest sizes) (apply #'+ (mapcar #'abs sizes)))
+                    (lambda (x y) (+ x y)))
+                   "this quadratic form in the momenta")
+    (forms-quotient-of-minors n (lambda (i j) (aref entries i j)) b #'add #'mul
+                              (lambda (x y) (div x (mul 2 y))))))
+
+(defun forms-quotient-of-minors (n entry b add multiply over)
+  "sum b_i b_j C_ij OVER the determinant, in the arithmetic of ADD and MULTIPLY."
+  (let ((minor (forms-minors n entry add multiply)) (sum 0) (all (1- (ash 1 n))))
+    (flet ((cofactor (i j)
+             (funcall minor (loop for k below n unless (= k i) collect k)
+                      (logandc2 all (ash 1 j)))))
+      (loop for i from 0
+            for (b-i . others) on b
+            do (loop for j from i
+                     for b-j in (cons b-i others)
+                     for c = (cofactor i j)
+                     unless (eql c 0)
+                       do (setq sum (funcall add sum
+                                             (funcall multiply
+                                                      (* (if (= i j) 1 2) (if (evenp (+ i j)) 1 -1))
+                                                      b-i b-j c))))))
+    (funcall over sum (funcall minor (loop for k below n collect k) all))))
