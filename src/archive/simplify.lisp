@@ -69,10 +69,23 @@
 
 (defun archive-power-sign (base exponent)
   (let ((sign (archive-plain-sign base)))
-    (cond ((eq sign '$pos) (if (eq (archive-plain-sign exponent) '$complex) '$complex '$pos))
-          ((eq sign '$complex) '$complex)
-          ((and (integerp exponent) (evenp exponent) (plusp exponent)) '$pz)
+    (cond ((eq sign '$complex) '$complex)
+          ((eq (archive-plain-sign exponent) '$complex) '$complex)
+          ((eq sign '$pos) (if (archive-plainly-real-p exponent) '$pos '$pnz))
+          ((and (integerp exponent) (evenp exponent) (plusp exponent) (archive-plainly-real-p base)) '$pz)
           (t '$pnz))))
+
+(defun archive-plainly-real-p (e)
+  "True when E is real for real values of its names: no logarithm, root or function that may leave the reals."
+  (cond ((atom e) (not (eq e '$%i)))
+        ((mnump e) t)
+        (t (case (caar e)
+             ((mplus mtimes %sin %cos %tan %sinh %cosh %tanh %atan mabs)
+              (loop for part in (cdr e) always (archive-plainly-real-p part)))
+             (mexpt (and (archive-plainly-real-p (cadr e))
+                         (or (integerp (caddr e)) (eq (cadr e) '$%e))
+                         (archive-plainly-real-p (caddr e))))
+             (t nil)))))
 
 (defun archive-product-sign (factors)
   (let ((signs (mapcar #'archive-plain-sign factors)))
@@ -239,12 +252,19 @@
   (let ((number (loop for f in factors sum (length (archive-factors-of f)))))
     (when (> number *archive-factors*)
       (archive-refuse "a product of more than ~d factors" *archive-factors*))
-    (archive-count-work (* number number)))
+    (archive-count-work (* number number))
+    (when (> number 50)
+      (archive-count-work (floor (* number (loop for f in factors sum (archive-size f))) 50))))
   (when (> (loop for factor in factors sum (archive-weight factor)) *archive-weight*)
     (archive-refuse "a product whose numbers have more than ~d digits together" *archive-weight*))
   (archive-check-common-root factors))
 
+(defun archive-size (e)
+  "The number of atoms in E, operators among them."
+  (if (atom e) 1 (loop for part in (cdr e) sum (archive-size part) into size finally (return (1+ size)))))
+
 (defun archive-count-work (steps)
+  "Adds the STEPS of a product, whose factors Maxima compares and copies, to those of the archive."
   (when *archive-work*
     (when (> (incf (car *archive-work*) steps) *archive-steps*)
       (archive-refuse "products too long and too many to be simplified"))))
