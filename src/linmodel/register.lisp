@@ -22,3 +22,4 @@
 (core-rule "forces" '("mechanical") "linmodel/loads" "linmodel_forces" "description")
 (core-rule "constraints" '("mechanical") "linmodel/loads" "linmodel_constraints" "description")
 (core-rule "nonholonomic" '("mechanical") "linmodel/loads" "linmodel_nonholonomic" "description")
+(core-rule "momenta" '("mechanical") "linmodel/loads" "linmodel_momenta" "description")
