@@ -1,0 +1,248 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; A program as source text in C, Fortran, Python or Lisp: a routine NAME(x, y), x the inputs, y the
+;;; outputs one after the other, matrices row by row, and z the work array; the head of the text
+;;; lists them. The assignments go into functions of a few hundred each, since compilers take far
+;;; more than linear time for one long function. See export-program first.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_record"))
+
+(defvar *algebra-part-length* 300 "Assignments in one function.")
+
+(defstruct algebra-language
+  name comment        ; name of the language, and what begins a line of comment
+  number              ; text of a rational number
+  formats             ; operation -> format of its parts
+  place               ; text of place k, from 1, of array x, y or z
+  assignment          ; format of an assignment
+  first-lines         ; function of name, lengths of x, y, z and of the number of parts
+  begin end           ; of part k: functions of name and k, or of name, lengths and k
+  last-lines)
+
+(defun algebra-c-number (x)
+  (if (integerp x) (format nil "~d.0" x) (format nil "(~d.0/~d.0)" (numerator x) (denominator x))))
+
+(defun algebra-fortran-number (x)
+  (if (integerp x) (format nil "(~d.0d0)" x) (format nil "(~d.0d0/~d.0d0)" (numerator x) (denominator x))))
+
+(defun algebra-lisp-number (x)
+  (if (integerp x) (format nil "~d.0d0" x) (format nil "(/ ~d.0d0 ~d.0d0)" (numerator x) (denominator x))))
+
+(defparameter *algebra-infix-formats*
+  '((:add . "~a + ~a") (:subtract . "~a - ~a") (:negate . "-~a") (:multiply . "~a*~a") (:divide . "~a/~a")
+    (:sine . "sin(~a)") (:cosine . "cos(~a)") (:root . "sqrt(~a)")))
+
+(defparameter *algebra-lisp-formats*
+  '((:add . "(+ ~a ~a)") (:subtract . "(- ~a ~a)") (:negate . "(- ~a)") (:multiply . "(* ~a ~a)")
+    (:divide . "(/ ~a ~a)") (:sine . "(sin ~a)") (:cosine . "(cos ~a)") (:root . "(sqrt ~a)")))
+
+(defun algebra-lines (&rest lines) (format nil "~{~a~%~}" lines))
+
+(defun algebra-part-numbers (parts) (loop for k from 1 to parts collect k))
+
+(defparameter *algebra-languages*
+  (list
+   (make-algebra-language
+    :name "c" :comment "//" :number #'algebra-c-number :formats *algebra-infix-formats*
+    :place (lambda (array k) (format nil "~a[~d]" array (1- k)))
+    :assignment "  ~a = ~a;~%"
+    :first-lines (lambda (name nx ny nz parts)
+                   (declare (ignore name nx ny nz parts))
+                   (algebra-lines "#include <math.h>" ""))
+    :begin (lambda (name nx ny nz k)
+             (declare (ignore nx ny nz))
+             (algebra-lines (format nil "static void ~a_~d(const double *x, double *y, double *z)" name k) "{"))
+    :end (lambda (name k) (declare (ignore name k)) (algebra-lines "}" ""))
+    :last-lines (lambda (name nx ny nz parts)
+                  (format nil "void ~a(const double x[~d], double y[~d])~%{~%  double z[~d];~%~{~a~}}~%"
+                          name (max nx 1) (max ny 1) nz
+                          (loop for k in (algebra-part-numbers parts)
+                                collect (format nil "  ~a_~d(x, y, z);~%" name k)))))
+   (make-algebra-language
+    :name "fortran" :comment "!" :number #'algebra-fortran-number :formats *algebra-infix-formats*
+    :place (lambda (array k) (format nil "~a(~d)" array k))
+    :assignment "  ~a = ~a~%"
+    :first-lines (lambda (name nx ny nz parts) (declare (ignore name nx ny nz parts)) "")
+    :begin (lambda (name nx ny nz k)
+             (algebra-lines (format nil "subroutine ~a_~d(x, y, z)" name k) "  implicit none"
+                            (format nil "  double precision, intent(in) :: x(~d)" (max nx 1))
+                            (format nil "  double precision, intent(inout) :: y(~d), z(~d)" (max ny 1) nz)))
+    :end (lambda (name k) (algebra-lines (format nil "end subroutine ~a_~d" name k) ""))
+    :last-lines (lambda (name nx ny nz parts)
+                  (algebra-lines
+                   (format nil "subroutine ~a(x, y)" name) "  implicit none"
+                   (format nil "  double precision, intent(in) :: x(~d)" (max nx 1))
+                   (format nil "  double precision, intent(out) :: y(~d)" (max ny 1))
+                   (format nil "  double precision :: z(~d)~{~%  call ~a~}" nz
+                           (loop for k in (algebra-part-numbers parts)
+                                 collect (format nil "~a_~d(x, y, z)" name k)))
+                   (format nil "end subroutine ~a" name))))
+   (make-algebra-language
+    :name "python" :comment "#" :number #'algebra-c-number :formats *algebra-infix-formats*
+    :place (lambda (array k) (format nil "~a[~d]" array (1- k)))
+    :assignment "    ~a = ~a~%"
+    :first-lines (lambda (name nx ny nz parts)
+                   (declare (ignore name nx ny nz parts))
+                   (algebra-lines "from math import cos, sin, sqrt" "" ""))
+    :begin (lambda (name nx ny nz k) (declare (ignore nx ny nz)) (algebra-lines (format nil "def _~a_~d(x, y, z):" name k)))
+    :end (lambda (name k) (declare (ignore name k)) (algebra-lines "" ""))
+    :last-lines (lambda (name nx ny nz parts)
+                  (declare (ignore nx))
+                  (format nil "def ~a(x):~%    y = [0.0]*~d~%    z = [0.0]*~d~%~{~a~}    return y~%" name ny nz
+                          (loop for k in (algebra-part-numbers parts)
+                                collect (format nil "    _~a_~d(x, y, z)~%" name k)))))
+   (make-algebra-language
+    :name "lisp" :comment ";;;" :number #'algebra-lisp-number :formats *algebra-lisp-formats*
+    :place (lambda (array k) (format nil "(aref ~a ~d)" array (1- k)))
+    :assignment "  (setf ~a ~a)~%"
+    :first-lines (lambda (name nx ny nz parts) (declare (ignore name nx ny nz parts)) "")
+    :begin (lambda (name nx ny nz k)
+             (declare (ignore nx ny nz))
+             (algebra-lines (format nil "(defun ~a-~d (x y z)" name k)
+                            "  (declare (type (simple-array double-float (*)) x y z) (ignorable x y z))"))
+    :end (lambda (name k) (declare (ignore name k)) (algebra-lines "  nil)" ""))
+    :last-lines (lambda (name nx ny nz parts)
+                  (declare (ignore nx ny))
+                  (format nil "(defun ~a (x y)~%  (let ((z (make-array ~d :element-type 'double-float)))~%~{~a~}    y))~%"
+                          name nz
+                          (loop for k in (algebra-part-numbers parts)
+                                collect (format nil "    (~a-~d x y z)~%" name k)))))))
+
+(defun algebra-language-named (name)
+  (or (find (string-downcase (core-spelling name)) *algebra-languages*
+            :key #'algebra-language-name :test #'string=)
+      (core-error "the languages are c, fortran, python and lisp, found ~a" (core-spelling name))))
+
+;;; Text.
+
+(defun algebra-exported-text (language element places)
+  (if (algebra-node-p element)
+      (gethash (algebra-node-index element) places)
+      (funcall (algebra-language-number language) element)))
+
+(defun algebra-exported-operation (language node places)
+  (flet ((text (element)
+           (let ((text (algebra-exported-text language element places)))
+             (if (and (realp element) (minusp element) (not (string= (algebra-language-name language) "lisp")))
+                 (format nil "(~a)" text)
+                 text))))
+    (format nil (cdr (assoc (algebra-node-operation node) (algebra-language-formats language)))
+            (text (algebra-node-left node)) (text (algebra-node-right node)))))
+
+(defun algebra-exported-places (language inputs nodes computed)
+  (let ((places (make-hash-table)))
+    (dolist (node (remove-if-not #'algebra-input-p nodes))
+      (setf (gethash (algebra-node-index node) places)
+            (algebra-exported-input language node inputs)))
+    (loop for node in computed
+          for k from 1
+          do (setf (gethash (algebra-node-index node) places)
+                   (funcall (algebra-language-place language) "z" k)))
+    places))
+
+(defun algebra-exported-input (language node inputs)
+  (let ((place (position (algebra-node-left node) inputs :test #'alike1)))
+    (cond (place (funcall (algebra-language-place language) "x" (1+ place)))
+          ((algebra-constant-input-p node)
+           (funcall (algebra-language-number language)
+                    (rational (algebra-input-value (algebra-node-left node) '() nil))))
+          (t (core-error "~a is not among the inputs of the program" (mfuncall '$string (algebra-node-left node)))))))
+
+(defun algebra-exported-assignments (language computed elements places)
+  "The lines of all assignments, those of the outputs last."
+  (append
+   (loop for node in computed
+         collect (cons (gethash (algebra-node-index node) places)
+                       (algebra-exported-operation language node places)))
+   (loop for element in elements
+         for k from 1
+         collect (cons (funcall (algebra-language-place language) "y" k)
+                       (algebra-exported-text language element places)))))
+
+(defun algebra-output-names (outputs)
+  (flet ((indexed (name &rest indices) (format nil "~a[~{~d~^,~}]" (core-spelling name) indices)))
+    (loop for (name . value) in outputs
+          append (cond ((or (numberp value) (algebra-node-p value)) (list (core-spelling name)))
+                       ((eq (car value) :list)
+                        (loop for nil in (cdr value) for k from 1 collect (indexed name k)))
+                       (t (loop for row in (cdr value) for i from 1
+                                append (loop for nil in row for j from 1 collect (indexed name i j))))))))
+
+(defun algebra-plain-text (e)
+  (remove #\' (substitute #\Space #\Newline (coerce (mstring e) 'string))))
+
+(defun algebra-write-head (stream language name inputs outputs operations)
+  (flet ((line (format &rest arguments)
+           (format stream "~a ~?~%" (algebra-language-comment language) format arguments)))
+    (line "dynarch: program ~a, ~d operations; made by ExportProgram, replaced when it is made anew." name operations)
+    (line "Inputs:")
+    (loop for input in inputs for k from 1 do (line "  x~d = ~a" k (algebra-plain-text input)))
+    (line "Outputs:")
+    (loop for output in (algebra-output-names outputs) for k from 1 do (line "  y~d = ~a" k output))
+    (format stream "~%")))
+
+(defun algebra-write-program (stream language name inputs outputs)
+  (let* ((elements (algebra-all-outputs outputs))
+         (nodes (algebra-live-nodes elements))
+         (computed (remove-if #'algebra-input-p nodes))
+         (places (algebra-exported-places language inputs nodes computed))
+         (lines (algebra-exported-assignments language computed elements places))
+         (lengths (list (length inputs) (length elements) (max 1 (length computed))))
+         (parts (ceiling (length lines) *algebra-part-length*)))
+    (algebra-write-head stream language name inputs outputs (length computed))
+    (flet ((write-lines (function &rest more)
+             (write-string (apply function name (append lengths more)) stream)))
+      (write-lines (algebra-language-first-lines language) parts)
+      (dolist (k (algebra-part-numbers parts))
+        (write-lines (algebra-language-begin language) k)
+        (loop repeat *algebra-part-length*
+              while lines
+              do (destructuring-bind (place . text) (pop lines)
+                   (format stream (algebra-language-assignment language) place text)))
+        (write-string (funcall (algebra-language-end language) name k) stream))
+      (write-lines (algebra-language-last-lines language) parts))))
+
+;;; Files.
+
+(defun algebra-routine-name (file)
+  "The name of FILE without folder and type, as a routine may be called."
+  (let* ((start (1+ (or (position #\/ file :from-end t) -1)))
+         (end (position #\. file :start start))
+         (name (map 'string (lambda (c) (if (or (alpha-char-p c) (digit-char-p c)) (char-downcase c) #\_))
+                    (subseq file start end))))
+    (if (and (plusp (length name)) (alpha-char-p (char name 0)))
+        (subseq name 0 (min 50 (length name)))
+        (concatenate 'string "program_" (subseq name 0 (min 40 (length name)))))))
+
+(defun algebra-check-new-file (file replace)
+  (when (and (core-existing-file file) (not replace))
+    (core-error "~a exists already; give replace = true to write over it" file)))
+
+(defun algebra-write-file (file function)
+  "FUNCTION writes to a draft, which then takes the place of FILE."
+  (let ((draft (format nil "~a.~a.draft" file (core-process-id))))
+    (unwind-protect
+         (progn
+           (with-open-file (stream (core-pathname draft) :direction :output :if-exists :supersede)
+             (funcall function stream))
+           (algebra-rename-file draft file))
+      (when (core-existing-file draft) (delete-file (core-pathname draft))))))
+
+(defun algebra-rename-file (draft file)
+  #+sbcl (rename-file (core-pathname draft)
+                      (merge-pathnames (core-pathname file) (make-pathname :type :unspecific)))
+  #-sbcl (rename-file draft (merge-pathnames file (make-pathname :type :unspecific))))
+
+(defun $algebra_export (record file language replace)
+  "Writes RECORD to FILE and returns the name of the file."
+  (unless (stringp file) (core-error "the second argument is the name of a file, found ~a" (mfuncall '$string file)))
+  (algebra-check-new-file file replace)
+  (let ((language (algebra-language-named language)))
+    (with-algebra-program
+      (destructuring-bind (inputs outputs) (algebra-read-program record)
+        (algebra-write-file file (lambda (stream)
+                                   (algebra-write-program stream language (algebra-routine-name file)
+                                                          inputs outputs))))))
+  file)
