@@ -1,8 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; A file as bytes, and bytes as text. Only regular files are opened (a pipe would wait for ever), links are followed, the
-;;; size is limited, and the bytes must be UTF-8 without control characters: each fault is told with its place.
-;;; Decoding and encoding are inverse to each other, so that what is not touched is written back byte for byte.
-;;; Look first at archive-read-file.
+;;; A file as bytes, and bytes as text. Only regular files are opened (a pipe would wait for
+;;; ever), links are followed, the size is limited, and the bytes must be UTF-8 without control
+;;; characters: each fault is told with its place. Decoding and encoding are inverse to each
+;;; other, so that what is not touched is written back byte for byte. Look first at
+;;; archive-read-file.
 
 (in-package :maxima)
 
@@ -19,7 +20,8 @@
   #-sbcl (pathname name))
 
 (defun archive-file-kind (name)
-  "What NAME leads to, links followed: :regular, :folder, :pipe, :device, :socket, :missing or :unreachable."
+  "What NAME leads to, links followed: :regular, :folder, :pipe, :device, :socket, :missing or
+:unreachable."
   #+sbcl
   (multiple-value-bind (found error inode mode) (sb-unix:unix-stat name)
     (declare (ignore inode))
@@ -42,7 +44,9 @@
 #-sbcl
 (defun archive-file-kind-by-test (name)
   "As archive-file-kind, by the shell's test: GCL's own stat cannot tell a pipe from a file."
-  (flet ((holds (flag) (zerop (archive-shell-status (format nil "test ~a ~a" flag (archive-shell-quoted name))))))
+  (flet ((holds (flag)
+                (zerop (archive-shell-status (format nil "test ~a ~a" flag
+                                                     (archive-shell-quoted name))))))
     (cond ((holds "-f") :regular)
           ((holds "-d") :folder)
           ((holds "-p") :pipe)
@@ -87,32 +91,38 @@
       (close stream))))
 
 (defun archive-open-bytes (name)
-  "Two values: a stream of bytes from the file NAME, and its size. The kind is looked at again once it is open; opening never
-waits."
+  "Two values: a stream of bytes from the file NAME, and its size. The kind is looked at again once
+it is open; opening never waits."
   #+sbcl
-  (multiple-value-bind (descriptor error) (sb-unix:unix-open name (logior sb-unix:o_rdonly #o4000) 0)
+  (multiple-value-bind (descriptor error)
+    (sb-unix:unix-open name (logior sb-unix:o_rdonly #o4000) 0)
     (unless descriptor
       (core-error "~a cannot be read: ~a" name (sb-int:strerror error)))
-    (multiple-value-bind (found device inode mode links user group special size) (sb-unix:unix-fstat descriptor)
+    (multiple-value-bind (found device inode mode links user group special size)
+      (sb-unix:unix-fstat descriptor)
       (declare (ignore device inode links user group special))
       (unless (and found (eq (archive-mode-kind mode) :regular))
         (sb-unix:unix-close descriptor)
         (core-error "~a is not a regular file any more" name))
-      (values (sb-sys:make-fd-stream descriptor :input t :buffering :full :element-type '(unsigned-byte 8))
+      (values (sb-sys:make-fd-stream descriptor :input t :buffering :full :element-type
+                                     '(unsigned-byte 8))
               size)))
   #-sbcl
   (archive-open-any-name name))
 
 #-sbcl
 (defun archive-open-any-name (name)
-  "Two values: a stream of bytes from the file NAME, and its size. GCL takes [, * and ? in names for wild cards: a file so named
-is read from a copy, which has no name any more once it is open."
+  "Two values: a stream of bytes from the file NAME, and its size. GCL takes [, * and ? in names for
+wild cards: a file so named is read from a copy, which has no name any more once it is open."
   (let* ((plain (notany (lambda (c) (find c "[]*?\\")) name))
-         (copy (if plain name (format nil "~a/dynarch-~d-~d" $maxima_tempdir (get-internal-real-time) (random 1000000)))))
+         (copy (if plain name
+                   (format nil "~a/dynarch-~d-~d" $maxima_tempdir (get-internal-real-time)
+                           (random 1000000)))))
     (unless plain
       (archive-shell-status (format nil "umask 077; head -c ~d -- ~a > ~a" (1+ *archive-file-size*)
                                     (archive-shell-quoted name) (archive-shell-quoted copy))))
-    (let ((stream (ignore-errors (open (archive-native-path copy) :element-type '(unsigned-byte 8)))))
+    (let ((stream (ignore-errors (open (archive-native-path copy) :element-type
+                                       '(unsigned-byte 8)))))
       (unless plain (ignore-errors (delete-file copy)))
       (if stream
           (values stream (file-length stream))
@@ -121,7 +131,8 @@ is read from a copy, which has no name any more once it is open."
 (defun archive-stream-bytes (stream size name)
   "The SIZE bytes of STREAM, or an error if they are more than the limit."
   (when (> size *archive-file-size*)
-    (core-error "~a has ~d bytes; archives of at most ~d bytes are read" name size *archive-file-size*))
+    (core-error "~a has ~d bytes; archives of at most ~d bytes are read" name size
+                *archive-file-size*))
   (let* ((bytes (make-array size :element-type '(unsigned-byte 8)))
          (read (handler-case (read-sequence bytes stream)
                  (error () (core-error "~a cannot be read to its end" name)))))
@@ -130,7 +141,8 @@ is read from a copy, which has no name any more once it is open."
 ;; UTF-8
 
 (defun archive-sequence-length (bytes position end)
-  "The length of the UTF-8 sequence that begins at POSITION, or nil if there is none: no overlong form, no surrogate."
+  "The length of the UTF-8 sequence that begins at POSITION, or nil if there is none: no overlong
+form, no surrogate."
   (declare (type archive-bytes bytes) (type fixnum position end))
   (let ((first (aref bytes position)))
     (flet ((byte-at (k) (if (< (+ position k) end) (aref bytes (+ position k)) 0)))
@@ -167,12 +179,15 @@ is read from a copy, which has no name any more once it is open."
     (loop while (< position end)
           do (let ((length (archive-sequence-length bytes position end)))
                (cond ((null length)
-                      (archive-fault-at file line column "found the byte ~2,'0x (hexadecimal), which is not UTF-8; save the file as UTF-8"
+                      (archive-fault-at file line column
+                                        "found the byte ~2,'0x (hexadecimal), which is not UTF-8; save the file as UTF-8"
                                         (aref bytes position)))
                      ((archive-control-p bytes position end)
-                      (archive-fault-at file line column "found the control character ~d; a text has none but tab and line ends~a"
+                      (archive-fault-at file line column
+                                        "found the control character ~d; a text has none but tab and line ends~a"
                                         (archive-code-point bytes position length)
-                                        (if (zerop (aref bytes position)) " (is this a binary file?)" "")))
+                                        (if (zerop (aref bytes position))
+                                            " (is this a binary file?)" "")))
                      ((= (aref bytes position) 10) (incf line) (setq column 0)))
                (incf column)
                (incf position length)))))
@@ -193,8 +208,11 @@ is read from a copy, which has no name any more once it is open."
   (let ((text (make-string (length bytes))) (n 0) (position 0) (end (length bytes)))
     (declare (type fixnum n position end))
     (loop while (< position end)
-          do (let ((length (if (> char-code-limit 256) (archive-sequence-length bytes position end) 1)))
-               (setf (char text n) (code-char (if (= length 1) (aref bytes position) (archive-code-point bytes position length))))
+          do (let ((length (if (> char-code-limit 256) (archive-sequence-length bytes position end)
+                               1)))
+               (setf (char text n)
+                     (code-char (if (= length 1) (aref bytes position)
+                                    (archive-code-point bytes position length))))
                (incf n)
                (incf position length)))
     (archive-simple-text (subseq text 0 n))))
@@ -205,7 +223,8 @@ is read from a copy, which has no name any more once it is open."
   (archive-decode bytes))
 
 (defun archive-read-file (name)
-  "The text of the file NAME: a native string. An error if it cannot be read, is empty or is no text."
+  "The text of the file NAME: a native string. An error if it cannot be read, is empty or is no
+text."
   (let ((bytes (archive-file-bytes name)))
     (when (zerop (length bytes))
       (core-error "~a is empty; an archive begins with dynarch = 1" name))

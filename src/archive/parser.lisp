@@ -1,9 +1,11 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Recursive descent over the archive's grammar: text to a simplified Maxima expression, with nothing evaluated.
-;;;   weak to strong   or   and   not   = < <= > >= (no chains)   + -   * /   unary -   ^ (to the right)   '
-;;; Names of functions that Maxima does not have are collected with their places: which of them the archive's own keys
-;;; allow is known only when [system] has been read, see archive-check-functions.
-;;; Look first at archive-parse-value, then at the chain archive-parse-expression! .. archive-parse-atom!.
+;;; Recursive descent over the archive's grammar: text to a simplified Maxima expression, with
+;;; nothing evaluated.
+;;;   weak to strong   or  and  not  = < <= > >= (no chains)  + -  * /  unary -  ^ (to the right)  '
+;;; Names of functions that Maxima does not have are collected with their places: which of them
+;;; the archive's own keys allow is known only when [system] has been read, see
+;;; archive-check-functions. Look first at archive-parse-value, then at the chain
+;;; archive-parse-expression! .. archive-parse-atom!.
 
 (in-package :maxima)
 
@@ -11,28 +13,34 @@
   (core-require "archive/tokens" "archive/simplify"))
 
 (defvar *archive-nesting* #-gcl 200 #+gcl 100
-  "The most levels of nesting. GCL has room for two thousand calls in each other, of Maxima's simplifier too.")
+  "The most levels of nesting. GCL has room for two thousand calls in each other, of Maxima's
+simplifier too.")
 (defparameter *archive-open-functions* 1000 "The most functions that an archive may leave open.")
 
 (defparameter *archive-functions*
   '(("sin" %sin 1) ("cos" %cos 1) ("tan" %tan 1) ("cot" %cot 1) ("sec" %sec 1) ("csc" %csc 1)
     ("asin" %asin 1) ("acos" %acos 1) ("atan" %atan 1) ("atan2" $atan2 2)
-    ("sinh" %sinh 1) ("cosh" %cosh 1) ("tanh" %tanh 1) ("exp" %exp 1) ("log" %log 1) ("sqrt" %sqrt 1)
+    ("sinh" %sinh 1) ("cosh" %cosh 1) ("tanh" %tanh 1) ("exp" %exp 1) ("log" %log 1)
+    ("sqrt" %sqrt 1)
     ("abs" mabs 1) ("signum" %signum 1) ("max" $max nil) ("min" $min nil))
   "Functions of numbers: name, Maxima's name, number of arguments (nil: one or more).")
 
 (defparameter *archive-forms*
-  '(("diff" . archive-make-derivative) ("integrate" . archive-make-integral) ("at" . archive-make-at)
-    ("matrix" . archive-make-matrix) ("diag" . archive-make-diagonal) ("notequal" . archive-make-notequal)
+  '(("diff" . archive-make-derivative) ("integrate" . archive-make-integral)
+    ("at" . archive-make-at)
+    ("matrix" . archive-make-matrix) ("diag" . archive-make-diagonal)
+    ("notequal" . archive-make-notequal)
     ("piecewise" . archive-make-piecewise))
   "Functions whose arguments have a form of their own, with what makes the expression.")
 
 (defparameter *archive-keywords*
-  '("if" "then" "else" "elseif" "for" "from" "step" "next" "in" "unless" "while" "thru" "do" "and" "or" "not")
+  '("if" "then" "else" "elseif" "for" "from" "step" "next" "in" "unless" "while" "thru" "do" "and"
+    "or" "not")
   "Words that Maxima's own language keeps for itself.")
 
 (defparameter *archive-relations*
-  '((:equal . mequal) (:less . mlessp) (:less-or-equal . mleqp) (:greater . mgreaterp) (:greater-or-equal . mgeqp)))
+  '((:equal . mequal) (:less . mlessp) (:less-or-equal . mleqp) (:greater . mgreaterp)
+    (:greater-or-equal . mgeqp)))
 
 ;; What an expression is
 
@@ -49,7 +57,8 @@
 
 (defun archive-kind-shown (kind)
   (ecase kind
-    (:scalar "an expression") (:relation "an equation or comparison") (:list "a list") (:matrix "a matrix")
+    (:scalar "an expression") (:relation "an equation or comparison") (:list "a list")
+    (:matrix "a matrix")
     (:string "a string") (:truth-value "true or false")))
 
 (defun archive-expect-kind (reader position e expected &rest kinds)
@@ -73,23 +82,26 @@
 (defun archive-expect! (reader kind what)
   "Passes over a token of KIND."
   (unless (eq (reader-kind reader) kind)
-    (archive-fault reader (reader-from reader) "found ~a, expected ~a" (archive-token-shown reader) what))
+    (archive-fault reader (reader-from reader) "found ~a, expected ~a" (archive-token-shown reader)
+                   what))
   (archive-next-token! reader))
 
 (defun archive-word-is (reader word)
-  (and (eq (reader-kind reader) :name) (zerop (reader-primes reader)) (string= (reader-value reader) word)))
+  (and (eq (reader-kind reader) :name) (zerop (reader-primes reader))
+       (string= (reader-value reader) word)))
 
 (defun archive-go-deeper! (reader)
   "One level of nesting more."
   (when (> (incf (reader-depth reader)) *archive-nesting*)
-    (archive-fault reader (reader-from reader) "more than ~d levels of nesting" *archive-nesting*)))
+    (archive-fault reader (reader-from reader) "more than ~d levels of nesting"
+                   *archive-nesting*)))
 
 (defmacro archive-computed ((reader position) &body body)
   "BODY, with POSITION as the place of an error in a simplification."
   `(let ((*archive-position* ,position) (*archive-reader* ,reader)) ,@body))
 
-;; Expressions and conditions. GCL has room for about two thousand calls in each other: hence few functions from one level of
-;; nesting to the next.
+;; Expressions and conditions. GCL has room for about two thousand calls in each other: hence
+;; few functions from one level of nesting to the next.
 
 (defmacro archive-condition-or-sum (reader from)
   "What stands between and, or: not .., a comparison, or a sum alone."
@@ -118,7 +130,8 @@
   (let ((alternatives (list (archive-parse-conjunction! reader first))))
     (loop while (archive-word-is reader "or")
           do (archive-next-token! reader)
-             (push (archive-parse-conjunction! reader (archive-parse-condition! reader)) alternatives))
+             (push (archive-parse-conjunction! reader (archive-parse-condition! reader))
+                   alternatives))
     (if (cdr alternatives) (archive-inert 'mor (nreverse alternatives)) (car alternatives))))
 
 (defun archive-parse-conjunction! (reader first)
@@ -141,7 +154,8 @@
   (archive-expect-side reader from left)
   (let ((operator (archive-relation-of reader)))
     (archive-next-token! reader)
-    (let* ((from (reader-from reader)) (right (archive-expect-side reader from (archive-parse-sum! reader))))
+    (let* ((from (reader-from reader))
+           (right (archive-expect-side reader from (archive-parse-sum! reader))))
       (when (archive-relation-of reader)
         (archive-fault reader (reader-from reader)
                        "found ~a after a comparison; comparisons do not chain, write each one by itself"
@@ -218,7 +232,8 @@
       (archive-computed (reader place)
         (archive-power base (if minus (archive-negative exponent) exponent))))))
 
-;; Arithmetic of expressions, lists and matrices: what is not plain is done here, element by element
+;; Arithmetic of expressions, lists and matrices: what is not plain is done here, element by
+;; element
 
 (defun archive-minus (reader position e)
   (archive-expect-kind reader position e "an expression" :scalar :list :matrix)
@@ -236,33 +251,39 @@
 
 (defun archive-over (reader position e)
   (archive-expect-scalar reader position e)
-  (archive-computed (reader position) (if (reader-doubles reader) (list '(archive-over) e) (archive-inverse e))))
+  (archive-computed (reader position)
+    (if (reader-doubles reader) (list '(archive-over) e) (archive-inverse e))))
 
 (defun archive-multiply (reader places factors)
   "The product of FACTORS, of which one may be a list or a matrix."
   (loop for place in places for factor in factors
         unless (archive-divisor-p factor)
           do (archive-expect-kind reader place factor "an expression" :scalar :list :matrix))
-  (let ((composite (remove-if-not (lambda (f) (member (archive-form-kind f) '(:list :matrix))) factors)))
+  (let ((composite (remove-if-not (lambda (f) (member (archive-form-kind f) '(:list :matrix)))
+                                  factors)))
     (when (cdr composite)
       (archive-fault reader (car places) "a product of lists or matrices; write it out"))
     (archive-computed (reader (car places))
       (if composite
-          (archive-over-elements (lambda (e) (archive-multiply-scalars (substitute e (car composite) factors)))
+          (archive-over-elements (lambda (e)
+                                   (archive-multiply-scalars (substitute e (car composite)
+                                                                         factors)))
                                  (car composite))
           (archive-multiply-scalars factors)))))
 
 (defun archive-divisor-p (factor) (and (consp factor) (eq (caar factor) 'archive-over)))
 
 (defun archive-multiply-scalars (factors)
-  "The product of FACTORS; a divisor is still a divisor where results are doubles, so that 1.0/3 is rounded once."
+  "The product of FACTORS; a divisor is still a divisor where results are doubles, so that 1.0/3
+is rounded once."
   (if (loop for factor in factors never (archive-divisor-p factor))
       (archive-product factors)
       (let ((product (car factors)))
         (dolist (factor (cdr factors) product)
           (setq product
                 (cond ((not (archive-divisor-p factor)) (archive-product (list product factor)))
-                      ((and (mnump product) (mnump (cadr factor)) (or (floatp product) (floatp (cadr factor))))
+                      ((and (mnump product) (mnump (cadr factor))
+                            (or (floatp product) (floatp (cadr factor))))
                        (archive-quotient-of-numbers product (cadr factor)))
                       (t (archive-product (list product (archive-inverse (cadr factor)))))))))))
 
@@ -284,7 +305,9 @@
                            always (and (eq (archive-form-kind term) (archive-form-kind first))
                                        (= (length term) (length first)))))
           (archive-refuse "a sum of lists or matrices that differ in shape"))
-        (cons (car first) (apply #'mapcar (lambda (&rest parts) (archive-add-elements parts)) (mapcar #'cdr terms))))))
+        (cons (car first)
+              (apply #'mapcar (lambda (&rest parts) (archive-add-elements parts))
+                     (mapcar #'cdr terms))))))
 
 ;; Atoms
 
@@ -298,7 +321,8 @@
     (:open (archive-parse-parenthesis! reader))
     (:open-list (archive-parse-list! reader :close-list "]"))
     (:open-brace (archive-parse-list! reader :close-brace "}"))
-    (t (archive-fault reader (reader-from reader) "found ~a, expected a value" (archive-token-shown reader)))))
+    (t (archive-fault reader (reader-from reader) "found ~a, expected a value"
+                      (archive-token-shown reader)))))
 
 (defun archive-parse-parenthesis! (reader)
   (let ((from (reader-from reader)))
@@ -316,7 +340,8 @@
       (archive-fault reader (reader-from reader)
                      "found ~a, expected an operator, a comma or ~a (the bracket opened at line ~d, column ~d)~a"
                      (archive-token-shown reader) sign line column
-                     (if (eq (reader-kind reader) :end) "; a value continued on the next line is indented" ""))))
+                     (if (eq (reader-kind reader) :end)
+                         "; a value continued on the next line is indented" ""))))
   (archive-next-token! reader))
 
 (defun archive-parse-elements! (reader kind sign)
@@ -343,7 +368,8 @@
 (defun archive-parse-name! (reader)
   (let ((name (reader-value reader)) (primes (reader-primes reader)) (from (reader-from reader)))
     (when (member name *archive-keywords* :test #'string=)
-      (archive-fault reader from "found `~a', expected a value: the word is reserved and cannot be a name" name))
+      (archive-fault reader from
+                     "found `~a', expected a value: the word is reserved and cannot be a name" name))
     (archive-next-token! reader)
     (cond ((plusp primes) (archive-primed-name reader name primes from))
           ((eq (reader-kind reader) :open)
@@ -352,7 +378,8 @@
           ((string= name "true") t)
           ((string= name "false") nil)
           ((member (reader-kind reader) '(:quote))
-           (archive-fault reader (reader-from reader) "found ', expected an operator: a time derivative's ' stands directly after the name"))
+           (archive-fault reader (reader-from reader)
+                          "found ', expected an operator: a time derivative's ' stands directly after the name"))
           (t (core-read-symbol (archive-symbol name))))))
 
 (defun archive-primed-name (reader name primes from)
@@ -362,7 +389,8 @@
   (when (> primes *archive-nesting*)
     (archive-fault reader from "more than ~d signs ' after a name" *archive-nesting*))
   (when (eq (reader-kind reader) :open)
-    (archive-fault reader (reader-from reader) "found ( after ~a', expected an operator: ' stands after names of coordinates only" name))
+    (archive-fault reader (reader-from reader)
+                   "found ( after ~a', expected an operator: ' stands after names of coordinates only" name))
   (list '(%derivative simp) (core-read-symbol (archive-symbol name)) '$t primes))
 
 (defun archive-parse-noun! (reader)
@@ -375,7 +403,8 @@
   (let ((name (reader-value reader)) (from (reader-from reader)))
     (archive-next-token! reader)
     (unless (eq (reader-kind reader) :open)
-      (archive-fault reader (reader-from reader) "found ~a, expected ( after ~a" (archive-token-shown reader) name))
+      (archive-fault reader (reader-from reader) "found ~a, expected ( after ~a"
+                     (archive-token-shown reader) name))
     (multiple-value-bind (arguments places) (archive-parse-elements! reader :close ")")
       (archive-function-call reader name from arguments places))))
 
@@ -399,7 +428,8 @@
 (defun archive-make-function (reader function from arguments)
   (destructuring-bind (name operator number) function
     (when (and number (/= number (length arguments)))
-      (archive-fault reader from "~a has ~d argument~:p, expected ~d" name (length arguments) number))
+      (archive-fault reader from "~a has ~d argument~:p, expected ~d" name (length arguments)
+                     number))
     (archive-function-value operator arguments)))
 
 (defun archive-note-call (reader name from)
@@ -415,7 +445,8 @@
 
 (defun archive-expect-count (reader name from arguments &rest counts)
   (unless (member (length arguments) counts)
-    (archive-fault reader from "~a has ~d argument~:p, expected ~{~d~^ or ~}" name (length arguments) counts)))
+    (archive-fault reader from "~a has ~d argument~:p, expected ~{~d~^ or ~}" name
+                   (length arguments) counts)))
 
 (defun archive-expect-name (reader position e what)
   (unless (and (symbolp e) (not (member e '(t nil $%pi $%e $%i $inf))))
@@ -429,7 +460,8 @@
     (archive-expect-scalar reader (car places) e)
     (archive-expect-name reader (cadr places) variable "the variable of a derivative")
     (unless (and (integerp order) (<= 1 order *archive-nesting*))
-      (archive-fault reader (caddr places) "expected the order of a derivative, an integer from 1 to ~d" *archive-nesting*))
+      (archive-fault reader (caddr places)
+                     "expected the order of a derivative, an integer from 1 to ~d" *archive-nesting*))
     (when (mnump e)
       (archive-fault reader (car places) "the derivative of a number"))
     (archive-derivative e variable order)))
@@ -454,9 +486,13 @@
   (destructuring-bind (e where) arguments
     (archive-expect-scalar reader (car places) e)
     (unless (or (archive-substitution-p where)
-                (and (eq (archive-form-kind where) :list) (cdr where) (every #'archive-substitution-p (cdr where))))
-      (archive-fault reader (cadr places) "expected name = value, or a list of these, as second argument of at"))
-    (archive-inert '%at (list e (if (and (eq (archive-form-kind where) :list) (null (cddr where))) (cadr where) where)))))
+                (and (eq (archive-form-kind where) :list) (cdr where)
+                     (every #'archive-substitution-p (cdr where))))
+      (archive-fault reader (cadr places)
+                     "expected name = value, or a list of these, as second argument of at"))
+    (archive-inert '%at
+                   (list e (if (and (eq (archive-form-kind where) :list) (null (cddr where)))
+                               (cadr where) where)))))
 
 (defun archive-substitution-p (e)
   "True for name = value, where the name may be a derivative."
@@ -482,7 +518,9 @@
     (archive-fault reader from "a diagonal of more than ~d elements" *archive-nesting*))
   (archive-inert '$matrix
                  (loop for e in arguments for i from 0
-                       collect (archive-inert 'mlist (loop for j below (length arguments) collect (if (= i j) e 0))))))
+                       collect (archive-inert 'mlist
+                                              (loop for j below (length arguments) collect
+                                                (if (= i j) e 0))))))
 
 (defun archive-make-notequal (reader name from arguments places)
   (archive-expect-count reader name from arguments 2)
@@ -502,30 +540,39 @@
 ;; Whole values
 
 (defun archive-parse-reader! (reader &key relations)
-  "The value that READER stands on, up to its end; with RELATIONS it may be an equation or a condition."
+  "The value that READER stands on, up to its end; with RELATIONS it may be an equation or a
+condition."
   (archive-with-plain-simplifier
-    (let* ((*archive-reader* reader) (*archive-position* (reader-from reader)) (from (reader-from reader))
+    (let* ((*archive-reader* reader) (*archive-position* (reader-from reader))
+           (from (reader-from reader))
            (*archive-work* (or *archive-work* (list 0))))
       (when (eq (reader-kind reader) :end)
         (archive-fault reader from "an empty value"))
       (let ((value (handler-case (archive-parse-expression! reader)
-                     (arithmetic-error () (archive-fault reader (reader-from reader) "a result outside the range of doubles")))))
+                     (arithmetic-error ()
+                                       (archive-fault reader (reader-from reader)
+                                                      "a result outside the range of doubles")))))
         (unless (eq (reader-kind reader) :end)
-          (archive-fault reader (reader-from reader) "found ~a, expected an operator or the end of the value"
+          (archive-fault reader (reader-from reader)
+                         "found ~a, expected an operator or the end of the value"
                          (archive-token-shown reader)))
         (unless relations
-          (archive-expect-kind reader from value "a value" :scalar :list :matrix :string :truth-value))
+          (archive-expect-kind reader from value "a value" :scalar :list :matrix :string
+                               :truth-value))
         value))))
 
 (defun archive-parse-value (text &key file (line 1) (column 1) (start 0) end doubles relations)
-  "Two values: the Maxima expression that TEXT from START to END spells, and the functions called in it that Maxima does not
-have, as a list of (name line column), each once. DOUBLES: decimals are doubles. RELATIONS: the value may be an equation."
-  (let* ((reader (archive-open-text text :file file :line line :column column :start start :end end :doubles doubles))
+  "Two values: the Maxima expression that TEXT from START to END spells, and the functions called
+in it that Maxima does not have, as a list of (name line column), each once. DOUBLES: decimals are
+doubles. RELATIONS: the value may be an equation."
+  (let* ((reader (archive-open-text text :file file :line line :column column :start start :end end
+                                    :doubles doubles))
          (value (archive-parse-reader! reader :relations relations)))
     (values value (archive-reader-calls reader))))
 
 (defun archive-reader-calls (reader)
-  "The open functions that READER met, each with the place where it came first: list of (name line column)."
+  "The open functions that READER met, each with the place where it came first: list of (name
+line column)."
   (loop for (name . position) in (reverse (reader-calls reader))
         collect (cons name (multiple-value-list (archive-reader-place reader position)))))
 
@@ -533,7 +580,8 @@ have, as a list of (name line column), each once. DOUBLES: decimals are doubles.
   "True when Maxima, not the person, has a function or operator called NAME."
   (let ((symbol (archive-symbol name)))
     (and (not (mget symbol 'mexpr))
-         (or (fboundp symbol) (get symbol 'operators) (get symbol 'mfexpr*) (get symbol 'autoload) (get symbol 'alias)
+         (or (fboundp symbol) (get symbol 'operators) (get symbol 'mfexpr*) (get symbol 'autoload)
+             (get symbol 'alias)
              (get (intern-invert-case (concatenate 'string "%" name)) 'operators))
          t)))
 

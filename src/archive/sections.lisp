@@ -1,9 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The text of an archive as sections and entries, each with its place and with the range of characters it takes, so that one
-;;; section can be replaced and everything else stays as it is. Column 1 decides: [ opens a header, # and empty lines are passed
-;;; over, a blank or tab continues the entry above, anything else begins an entry. What stands before the first header is the
-;;; section "archive". Values of the description are parsed at once; those of results when they are asked for, by
-;;; archive-entry-parsed. Look first at archive-split.
+;;; The text of an archive as sections and entries, each with its place and with the range of
+;;; characters it takes, so that one section can be replaced and everything else stays as it is.
+;;; Column 1 decides: [ opens a header, # and empty lines are passed over, a blank or tab
+;;; continues the entry above, anything else begins an entry. What stands before the first
+;;; header is the section "archive". Values of the description are parsed at once; those of
+;;; results when they are asked for, by archive-entry-parsed. Look first at archive-split.
 
 (in-package :maxima)
 
@@ -15,13 +16,16 @@
   (text "") (file nil) (newline nil) (sections '()))
 
 (defstruct (archive-section (:conc-name section-))
-  "NAME without brackets; LINE of the header; characters START to END: header to last entry, without the last line end."
+  "NAME without brackets; LINE of the header; characters START to END: header to last entry,
+without the last line end."
   (name "") (line 1) (start 0) (end 0) (entries '()))
 
 (defstruct (archive-entry (:conc-name entry-))
-  "KEY as text (nil for a row); LINE and COLUMN of the entry; characters START to END of the whole entry, FROM to TO of its
-value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS, the open functions in it (name line column)."
-  (key nil) (line 1) (column 1) (start 0) (end 0) (from 0) (to 0) (value-line 1) (value-column 1) (sheet nil)
+  "KEY as text (nil for a row); LINE and COLUMN of the entry; characters START to END of the whole
+entry, FROM to TO of its value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed;
+CALLS, the open functions in it (name line column)."
+  (key nil) (line 1) (column 1) (start 0) (end 0) (from 0) (to 0) (value-line 1) (value-column 1)
+  (sheet nil)
   (value nil) (parsed nil) (calls '()))
 
 (defparameter *archive-row-sections*
@@ -35,21 +39,24 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 (defparameter *archive-entries* 20000 "The most entries of an archive.")
 
 (defstruct (archive-line-range (:conc-name line-))
-  "A line of the text: its NUMBER, characters START to END without the line end, and NEXT, where the next one begins."
+  "A line of the text: its NUMBER, characters START to END without the line end, and NEXT, where
+the next one begins."
   (number 1) (start 0) (end 0) (next 0))
 
 (defun archive-line-at (text start number)
   (let* ((newline (position #\Newline text :start start))
          (end (or newline (length text))))
     (make-archive-line-range :number number :start start
-                             :end (if (and (> end start) (char= (char text (1- end)) #\Return)) (1- end) end)
+                             :end (if (and (> end start) (char= (char text (1- end)) #\Return))
+                                      (1- end) end)
                              :next (if newline (1+ newline) (length text)))))
 
 (defun archive-blank-p (c) (or (char= c #\Space) (char= c #\Tab)))
 
 (defun archive-line-content (text line)
   "Where the content of LINE begins, or nil if it is blank or a comment."
-  (let ((from (position-if-not #'archive-blank-p text :start (line-start line) :end (line-end line))))
+  (let ((from (position-if-not #'archive-blank-p text :start (line-start line) :end
+                               (line-end line))))
     (and from (char/= (char text from) #\#) from)))
 
 (defun archive-text-start (text)
@@ -62,7 +69,8 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 
 (defun archive-line-fault (sheet line position control &rest arguments)
   (apply #'archive-fault-at (sheet-file sheet) (line-number line)
-         (1+ (archive-characters-between (sheet-text sheet) (line-start line) position)) control arguments))
+         (1+ (archive-characters-between (sheet-text sheet) (line-start line)
+                                         position)) control arguments))
 
 ;; Headers and entries
 
@@ -71,14 +79,17 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
          (close (position #\] text :start start :end end))
          (name (and close (subseq text (1+ start) close))))
     (unless close
-      (archive-line-fault sheet line start "found a section header without its closing ]; a list continued from the line above is indented"))
+      (archive-line-fault sheet line start
+                          "found a section header without its closing ]; a list continued from the line above is indented"))
     (let ((after (position-if-not #'archive-blank-p text :start (1+ close) :end end)))
       (when (and after (char/= (char text after) #\#))
-        (archive-line-fault sheet line after "found `~a' after a section header, expected the end of the line"
+        (archive-line-fault sheet line after
+                            "found `~a' after a section header, expected the end of the line"
                             (archive-shown (subseq text after end)))))
     (unless (and (plusp (length name)) (archive-letter-p (char name 0))
                  (every (lambda (c) (or (archive-word-p c) (char= c #\Space))) name))
-      (archive-line-fault sheet line (1+ start) "found [~a], expected the name of a section; a list continued from the line above is indented"
+      (archive-line-fault sheet line (1+ start)
+                          "found [~a], expected the name of a section; a list continued from the line above is indented"
                           (archive-shown name)))
     (make-archive-section :name name :line (line-number line) :start start :end end)))
 
@@ -88,7 +99,8 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
            (archive-line-fault sheet line (line-start line)
                                "[archive] is not the name of a section: its keys stand before the first header"))
           (first
-           (archive-line-fault sheet line (line-start line) "the section [~a] stands twice, first in line ~d"
+           (archive-line-fault sheet line (line-start line)
+                               "the section [~a] stands twice, first in line ~d"
                                (section-name section) (section-line first))))))
 
 (defun archive-check-count (sheet line number limit what)
@@ -102,7 +114,8 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
       (archive-key-of-line sheet line)))
 
 (defun archive-row-of-line (sheet line)
-  (make-archive-entry :sheet sheet :line (line-number line) :start (line-start line) :end (line-end line)
+  (make-archive-entry :sheet sheet :line (line-number line) :start (line-start line) :end
+                      (line-end line)
                       :from (line-start line) :to (line-end line) :value-line (line-number line)))
 
 (defun archive-key-of-line (sheet line)
@@ -111,10 +124,12 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
          (sign (position #\= text :start start :end comment))
          (key (string-right-trim '(#\Space #\Tab) (subseq text start (or sign comment)))))
     (unless sign
-      (archive-line-fault sheet line start "found `~a', expected key = value; a value continued from the line above is indented"
+      (archive-line-fault sheet line start
+                          "found `~a', expected key = value; a value continued from the line above is indented"
                           (archive-shown key)))
     (unless (archive-name-p key)
-      (archive-line-fault sheet line start "found `~a', expected a key (a letter, then letters, digits and _) before the ="
+      (archive-line-fault sheet line start
+                          "found `~a', expected a key (a letter, then letters, digits and _) before the ="
                           (archive-shown key)))
     (make-archive-entry :sheet sheet :key key :line (line-number line) :start start :end end
                         :from (1+ sign) :to end :value-line (line-number line)
@@ -132,23 +147,28 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
   "The sheet of TEXT, which messages name by FILE. With PARSE nil no value is parsed."
   (let* ((text (archive-simple-text text))
          (sheet (make-archive-sheet :text text :file file :newline (archive-line-end-of text)))
-         (section (make-archive-section :name "archive" :start (archive-text-start text) :end (archive-text-start text)))
+         (section (make-archive-section :name "archive" :start (archive-text-start text) :end
+                                        (archive-text-start text)))
          (sections (list section))
          (entry nil) (start (archive-text-start text)) (number 1) (section-count 0) (entry-count 0))
     (loop while (< start (length text))
-          do (let* ((line (archive-line-at text start number)) (content (archive-line-content text line)))
+          do (let* ((line (archive-line-at text start number))
+                    (content (archive-line-content text line)))
                (when content
                  (cond ((> content start)
                         (unless entry
-                          (archive-line-fault sheet line content "an indented line continues the entry above, but there is none; begin in column 1"))
+                          (archive-line-fault sheet line content
+                                              "an indented line continues the entry above, but there is none; begin in column 1"))
                         (archive-continue-entry entry section line))
                        ((char= (char text content) #\[)
                         (setq section (archive-section-of-header sheet line) entry nil)
-                        (archive-check-count sheet line (incf section-count) *archive-most-sections* "sections")
+                        (archive-check-count sheet line (incf section-count)
+                                             *archive-most-sections* "sections")
                         (archive-check-section-name sheet section line sections)
                         (push section sections))
                        (t
-                        (archive-check-count sheet line (incf entry-count) *archive-entries* "entries")
+                        (archive-check-count sheet line (incf entry-count) *archive-entries*
+                                             "entries")
                         (setq entry (archive-entry-of-line sheet section line))
                         (push entry (section-entries section))
                         (setf (section-end section) (line-end line)))))
@@ -206,7 +226,8 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
      entry
      (multiple-value-list
       (or (archive-digest-value entry)
-          (archive-parse-value (sheet-text (entry-sheet entry)) :file (sheet-file (entry-sheet entry))
+          (archive-parse-value (sheet-text (entry-sheet entry)) :file
+                               (sheet-file (entry-sheet entry))
                                :start (entry-from entry) :end (entry-to entry)
                                :line (entry-value-line entry) :column (entry-value-column entry)
                                :doubles doubles :relations relations)))))
@@ -235,12 +256,14 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 (defun archive-parse-row (entry parse)
   "The row ENTRY as a Maxima list, or label = list; PARSE takes a reader on its first token."
   (let* ((sheet (entry-sheet entry))
-         (reader (archive-open-text (sheet-text sheet) :file (sheet-file sheet) :line (entry-line entry)
+         (reader (archive-open-text (sheet-text sheet) :file (sheet-file sheet) :line
+                                    (entry-line entry)
                                     :start (entry-start entry) :end (entry-end entry))))
     (archive-set-entry-value entry (list (funcall parse reader) (archive-reader-calls reader)))))
 
 (defun archive-fields (reader)
-  "Ranges (from . to) of the fields from the reader's token on; blanks inside brackets and strings do not part fields."
+  "Ranges (from . to) of the fields from the reader's token on; blanks inside brackets and
+strings do not part fields."
   (let* ((text (reader-text reader)) (end (reader-end reader)) (fields '())
          (position (archive-skip-blanks text (reader-from reader) end)))
     (loop while (< position end)
@@ -259,7 +282,8 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
                      ((char= c #\#)
                       (if (<= depth 0)
                           (return)
-                          (setq position (or (position #\Newline text :start position :end end) (1- end)))))
+                          (setq position (or (position #\Newline text :start position :end end)
+                                             (1- end)))))
                      ((and (<= depth 0) (find c '(#\Space #\Tab #\Newline #\Return))) (return))))
              (incf position))
     (min position end)))
@@ -275,7 +299,8 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
 (defun archive-field-value (reader field &key relations)
   "The value of FIELD, a range of characters."
   (multiple-value-bind (line column) (archive-reader-place reader (car field))
-    (let ((part (archive-open-text (reader-text reader) :file (reader-file reader) :line line :column column
+    (let ((part (archive-open-text (reader-text reader) :file (reader-file reader) :line line
+                                   :column column
                                    :start (car field) :end (cdr field))))
       (let ((value (archive-parse-reader! part :relations relations)))
         (unless (and relations (eq (archive-form-kind value) :relation))
@@ -287,14 +312,16 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
   "A node: an integer or a name."
   (unless (or (and (eq (reader-kind reader) :number) (integerp (reader-value reader)))
               (and (eq (reader-kind reader) :name) (zerop (reader-primes reader))))
-    (archive-fault reader (reader-from reader) "found ~a, expected a node (an integer or a name)" (archive-token-shown reader)))
+    (archive-fault reader (reader-from reader) "found ~a, expected a node (an integer or a name)"
+                   (archive-token-shown reader)))
   (archive-parse-plain! reader))
 
 (defun archive-parse-plain! (reader)
   "The integer or name the reader stands on."
   (let ((value (reader-value reader)))
     (when (member value *archive-keywords* :test #'equal)
-      (archive-fault reader (reader-from reader) "found `~a': the word is reserved and cannot be a name" value))
+      (archive-fault reader (reader-from reader)
+                     "found `~a': the word is reserved and cannot be a name" value))
     (archive-next-token! reader)
     (if (stringp value) (core-symbol value) value)))
 
@@ -319,9 +346,13 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
          (nodes (archive-parse-nodes-before-fields! reader))
          (fields (archive-fields reader)))
     (unless (cdr fields)
-      (archive-fault reader (reader-from reader) "found ~:[a type without value~;no type~], expected: node -> node  type  value  [state]"
+      (archive-fault reader (reader-from reader)
+                     "found ~:[a type without value~;no type~], expected: node -> node  type  value  [state]"
                      (null fields)))
-    (let ((row (archive-inert 'mlist (append nodes (mapcar (lambda (field) (archive-field-value reader field)) fields)))))
+    (let ((row (archive-inert 'mlist
+                              (append nodes (mapcar (lambda (field)
+                                                      (archive-field-value reader
+                                                                           field)) fields)))))
       (if label (archive-inert 'mequal (list label row)) row))))
 
 (defun archive-parse-nodes-before-fields! (reader)
@@ -337,12 +368,15 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
   "label label  M, or label label  k = number"
   (let ((fields (archive-fields reader)))
     (unless (cddr fields)
-      (archive-fault reader (reader-from reader) "expected two labels and a value: L1 L2  M, or L1 L2  k = 0.9"))
+      (archive-fault reader (reader-from reader)
+                     "expected two labels and a value: L1 L2  M, or L1 L2  k = 0.9"))
     (destructuring-bind (first second third &rest more) fields
       (archive-inert 'mlist
                      (list (archive-field-name reader first "the label of a branch")
                            (archive-field-name reader second "the label of a branch")
-                           (archive-coupling-value reader third (if more (cdr (car (last more))) (cdr third))))))))
+                           (archive-coupling-value reader third
+                                                   (if more (cdr (car (last more)))
+                                                       (cdr third))))))))
 
 (defun archive-field-name (reader field what)
   (archive-expect-name reader (car field) (archive-field-value reader field) what))
@@ -351,7 +385,8 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
   "The mutual inductance, or k = coefficient, that stands from FIELD to TO."
   (let ((value (archive-field-value reader (cons (car field) to) :relations t)))
     (when (and (eq (archive-form-kind value) :relation)
-               (not (and (eq (caar value) 'mequal) (eq (cadr value) '$k) (eq (archive-form-kind (caddr value)) :scalar))))
+               (not (and (eq (caar value) 'mequal) (eq (cadr value) '$k)
+                         (eq (archive-form-kind (caddr value)) :scalar))))
       (archive-fault reader (car field) "expected a mutual inductance, or k = coefficient"))
     value))
 
@@ -360,8 +395,14 @@ value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed; CALLS,
   (let ((first (archive-parse-arrow! reader)))
     (archive-expect! reader :colon ":")
     (let* ((second (archive-parse-nodes-before-fields! reader)) (fields (archive-fields reader)))
-      (unless (and (cdr fields) (string= "ratio" (subseq (reader-text reader) (car (first fields)) (cdr (first fields)))))
-        (archive-fault reader (reader-from reader) "expected: node -> node : node -> node  ratio value"))
+      (unless (and (cdr fields)
+                   (string= "ratio"
+                            (subseq (reader-text reader) (car (first fields))
+                                    (cdr (first fields)))))
+        (archive-fault reader (reader-from reader)
+                       "expected: node -> node : node -> node  ratio value"))
       (when (cddr fields)
-        (archive-fault reader (car (third fields)) "found a second value after ratio; a value with blanks stands in ( )"))
-      (archive-inert 'mlist (append first second (list (archive-field-value reader (second fields))))))))
+        (archive-fault reader (car (third fields))
+                       "found a second value after ratio; a value with blanks stands in ( )"))
+      (archive-inert 'mlist
+                     (append first second (list (archive-field-value reader (second fields))))))))

@@ -1,21 +1,27 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Sums, products, powers and functions as Maxima simplifies them, for text that nobody vouches for: no step may hang, exhaust
-;;; the heap, ask, or depend on what the session assumes. Sizes of numbers are predicted before Maxima computes them; the signs
-;;; that Maxima's simplifier looks for (for sqrt(x^2), (2*x)^a) are those of archive-plain-sign, which factors nothing.
-;;; What is too costly to simplify stays as written. Look first at archive-simplified and archive-power.
+;;; Sums, products, powers and functions as Maxima simplifies them, for text that nobody vouches
+;;; for: no step may hang, exhaust the heap, ask, or depend on what the session assumes. Sizes
+;;; of numbers are predicted before Maxima computes them; the signs that Maxima's simplifier
+;;; looks for (for sqrt(x^2), (2*x)^a) are those of archive-plain-sign, which factors nothing.
+;;; What is too costly to simplify stays as written. Look first at archive-simplified and
+;;; archive-power.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/tokens"))
 
-(defvar *archive-reader* nil "The reader whose text is being simplified, for the place of an error.")
+(defvar *archive-reader* nil
+  "The reader whose text is being simplified, for the place of an error.")
 (defvar *archive-position* 0 "Where the expression begins that is being simplified.")
 
 (defparameter *archive-factors* 4000 "The most factors in one product.")
-(defparameter *archive-steps* 20000000 "The most steps that the products of one archive may take, about ten seconds.")
-(defvar *archive-work* nil "A list of the number of steps that the products of an archive have taken.")
-(defparameter *archive-weight* 20000 "The most digits that the numbers of one product may have together.")
+(defparameter *archive-steps* 20000000
+  "The most steps that the products of one archive may take, about ten seconds.")
+(defvar *archive-work* nil
+  "A list of the number of steps that the products of an archive have taken.")
+(defparameter *archive-weight* 20000
+  "The most digits that the numbers of one product may have together.")
 (defparameter *archive-root-order* 1000 "The largest order of a root of a number.")
 
 (defun archive-refuse (control &rest arguments)
@@ -30,16 +36,18 @@
 
 (defmacro archive-with-plain-simplifier (&body body)
   "BODY, while Maxima simplifies with its default flags and judges signs by archive-plain-sign."
-  `(let (($simp t) ($numer nil) ($float nil) ($keepfloat nil) ($bftorat nil) ($radexpand t) ($logexpand t) ($domain '$real)
-         ($m1pbranch nil) ($%emode t) ($%enumer nil) ($demoivre nil) ($exponentialize nil) ($halfangles nil)
-         ($triginverses t) ($trigsign t) ($%piargs t) ($%iargs t) ($negdistrib t) ($expop 0) ($expon 0)
-         ($maxposex 1000) ($maxnegex 1000) ($logsimp t) ($lognegint nil) ($numer_pbranch nil) ($logarc nil)
+  `(let (($simp t) ($numer nil) ($float nil) ($keepfloat nil) ($bftorat nil) ($radexpand t)
+         ($logexpand t) ($domain '$real) ($m1pbranch nil) ($%emode t) ($%enumer nil)
+         ($demoivre nil) ($exponentialize nil) ($halfangles nil) ($triginverses t) ($trigsign t)
+         ($%piargs t) ($%iargs t) ($negdistrib t) ($expop 0) ($expon 0) ($maxposex 1000)
+         ($maxnegex 1000) ($logsimp t) ($lognegint nil) ($numer_pbranch nil) ($logarc nil)
          ($ratsimpexpons nil) ($listarith t) ($doallmxops t) ($ratprint nil))
      (archive-calling-plain-signs (lambda () ,@body))))
 
 (defun archive-calling-plain-signs (function)
   "Calls FUNCTION while $sign, $csign and $asksign are archive-plain-sign."
-  (let ((sign (symbol-function '$sign)) (csign (symbol-function '$csign)) (asksign (symbol-function '$asksign)))
+  (let ((sign (symbol-function '$sign)) (csign (symbol-function '$csign))
+        (asksign (symbol-function '$asksign)))
     (unwind-protect
          (progn
            (setf (symbol-function '$sign) #'archive-plain-sign
@@ -56,7 +64,8 @@
         (t '$pos)))
 
 (defun archive-plain-sign (e)
-  "The sign of E as its numbers show it: $pos, $neg, $zero, $pz, $complex, or $pnz where they show nothing."
+  "The sign of E as its numbers show it: $pos, $neg, $zero, $pz, $complex, or $pnz where they
+show nothing."
   (cond ((mnump e) (archive-number-sign e))
         ((member e '($%pi $%e $inf)) '$pos)
         ((eq e '$%i) '$complex)
@@ -72,11 +81,13 @@
     (cond ((eq sign '$complex) '$complex)
           ((eq (archive-plain-sign exponent) '$complex) '$complex)
           ((eq sign '$pos) (if (archive-plainly-real-p exponent) '$pos '$pnz))
-          ((and (integerp exponent) (evenp exponent) (plusp exponent) (archive-plainly-real-p base)) '$pz)
+          ((and (integerp exponent) (evenp exponent) (plusp exponent)
+                (archive-plainly-real-p base)) '$pz)
           (t '$pnz))))
 
 (defun archive-plainly-real-p (e)
-  "True when E is real for real values of its names: no logarithm, root or function that may leave the reals."
+  "True when E is real for real values of its names: no logarithm, root or function that may
+leave the reals."
   (cond ((atom e) (not (eq e '$%i)))
         ((mnump e) t)
         (t (case (caar e)
@@ -110,7 +121,8 @@
 (defun archive-factors-of (e) (if (mtimesp e) (cdr e) (list e)))
 
 (defun archive-weight (e)
-  "Digits of the numbers in E that meet other numbers when E is multiplied: coefficient, exponents."
+  "Digits of the numbers in E that meet other numbers when E is multiplied: coefficient,
+exponents."
   (loop for factor in (archive-factors-of e)
         sum (cond ((mexptp factor) (archive-digits (caddr factor)))
                   (t (archive-digits factor)))))
@@ -132,7 +144,8 @@
   (if (integerp number) (abs number) (ceiling (abs (cadr number)) (caddr number))))
 
 (defun archive-decimal-size (number)
-  "The logarithm to base 10 of NUMBER, or of its larger part, as a rational that is a little too large."
+  "The logarithm to base 10 of NUMBER, or of its larger part, as a rational that is a little too
+large."
   (let ((n (if (integerp number) (abs number) (max (abs (cadr number)) (caddr number)))))
     (if (< n 1000000) (rational (+ (log (float n 1d0) 10) 1d-9)) (archive-integer-digits n))))
 
@@ -153,7 +166,8 @@
   number)
 
 (defun archive-check-root (number order)
-  "An error if the root of NUMBER of this ORDER would take long: Maxima looks for the number's factors."
+  "An error if the root of NUMBER of this ORDER would take long: Maxima looks for the number's
+factors."
   (when (> order *archive-root-order*)
     (archive-refuse "a root of an order above ~d" *archive-root-order*))
   (dolist (n (if (integerp number) (list number) (cdr number)))
@@ -167,8 +181,9 @@
       (loop while (and (/= n 0) (zerop (rem n p))) do (setq n (floor n p)))))
   n)
 
-;; One order of terms and factors before Maxima sees them: its own order is not always one (where 2^x*y*f(z) has its 2^x
-;; depends on what came first), and what is read and written again must come to rest.
+;; One order of terms and factors before Maxima sees them: its own order is not always one
+;; (where 2^x*y*f(z) has its 2^x depends on what came first), and what is read and written again
+;; must come to rest.
 
 (defun archive-compared (a b)
   "Negative, 0 or positive: numbers, then names, then forms by operator and parts."
@@ -230,7 +245,8 @@
   (cond ((null (cdr factors)) (car factors))
         ((loop for factor in factors always (mnump factor)) (archive-number-product factors))
         (t (archive-check-factors factors)
-           (archive-check-product (archive-simplified (list* '(mtimes) (archive-ordered factors)))))))
+           (archive-check-product (archive-simplified (list* '(mtimes)
+                                                             (archive-ordered factors)))))))
 
 (defun archive-number-product (numbers)
   "The product of NUMBERS, by halves."
@@ -240,7 +256,8 @@
              (if (= n 1)
                  (car numbers)
                  (let ((half (floor n 2)))
-                   (archive-check-number (timesk (product numbers half) (product (nthcdr half numbers) (- n half))))))))
+                   (archive-check-number (timesk (product numbers half)
+                                                 (product (nthcdr half numbers) (- n half))))))))
     (product numbers (length numbers))))
 
 (defun archive-bits (number)
@@ -261,7 +278,8 @@
 
 (defun archive-size (e)
   "The number of atoms in E, operators among them."
-  (if (atom e) 1 (loop for part in (cdr e) sum (archive-size part) into size finally (return (1+ size)))))
+  (if (atom e) 1 (loop for part in (cdr e) sum (archive-size part) into size finally
+                   (return (1+ size)))))
 
 (defun archive-count-work (steps)
   "Adds the STEPS of a product, whose factors Maxima compares and copies, to those of the archive."
@@ -277,7 +295,8 @@
         (when (and (mexptp factor) (mnump (cadr factor)) (ratnump (caddr factor)))
           (setq order (lcm order (caddr (caddr factor)))))))
     (when (> order *archive-root-order*)
-      (archive-refuse "roots of numbers that meet in a root of an order above ~d" *archive-root-order*))))
+      (archive-refuse "roots of numbers that meet in a root of an order above ~d"
+                      *archive-root-order*))))
 
 (defun archive-check-product (product)
   "PRODUCT, or an error if a power of a number in it has grown too large."
@@ -298,7 +317,8 @@
 
 (defun archive-double (number)
   (cond ((floatp number) number)
-        (t (or (archive-nearest-double (if (integerp number) number (/ (cadr number) (caddr number))))
+        (t (or (archive-nearest-double (if (integerp number) number
+                                           (/ (cadr number) (caddr number))))
                (archive-refuse "the number is too large for a double")))))
 
 (defun archive-double-or-refuse (function)
@@ -348,15 +368,18 @@
   "A power in a table of numerical results: of numbers a double, else as it stands."
   (if (and (mnump base) (mnump exponent))
       (archive-double-or-refuse (lambda () (expt (archive-double base)
-                                                 (if (integerp exponent) exponent (archive-double exponent)))))
+                                                 (if (integerp exponent) exponent
+                                                     (archive-double exponent)))))
       (list '(mexpt simp) base exponent)))
 
 (defun archive-exponential (exponent)
-  "%e^EXPONENT; as it stands where Maxima's rules for logarithms and %i*%pi inside could take long."
+  "%e^EXPONENT; as it stands where Maxima's rules for logarithms and %i*%pi inside could take
+long."
   (cond ((floatp exponent) (archive-double-or-refuse (lambda () (exp exponent))))
         ((and (archive-contains-p exponent '%log) (not (archive-modest-p exponent)))
          (list '(mexpt simp) '$%e exponent))
-        ((and (archive-contains-p exponent '$%i) (archive-contains-p exponent '$%pi) (not (archive-modest-p exponent)))
+        ((and (archive-contains-p exponent '$%i) (archive-contains-p exponent '$%pi)
+              (not (archive-modest-p exponent)))
          (list '(mexpt simp) '$%e exponent))
         (t (archive-simplified (list '(mexpt) '$%e exponent)))))
 
@@ -374,7 +397,8 @@
                (and (plusp nodes)
                     (cond ((mnump e) (< (archive-digits e) 4))
                           ((atom e) t)
-                          ((mexptp e) (and (visit (cadr e)) (archive-small-exponent-p (caddr e)) (visit (caddr e))))
+                          ((mexptp e) (and (visit (cadr e)) (archive-small-exponent-p (caddr e))
+                                           (visit (caddr e))))
                           (t (loop for part in (cdr e) always (visit part)))))))
       (visit e))))
 
@@ -426,13 +450,16 @@
 
 (defun archive-extremum (operator arguments)
   (if (every #'mnump arguments)
-      (reduce (lambda (a b) (if (eq (archive-number-sign (addk a (timesk -1 b))) (if (eq operator '$max) '$neg '$pos)) b a))
+      (reduce (lambda (a b)
+                (if (eq (archive-number-sign (addk a (timesk -1 b)))
+                        (if (eq operator '$max) '$neg '$pos)) b a))
               arguments)
       (archive-inert operator arguments)))
 
 (defun archive-atan2 (arguments)
   (when (every #'zerop1 arguments) (archive-refuse "atan2(0, 0) has no value"))
-  (if (and (every #'mnump arguments) (every #'archive-modest-p arguments) (notany #'floatp arguments))
+  (if (and (every #'mnump arguments) (every #'archive-modest-p arguments)
+           (notany #'floatp arguments))
       (archive-attempted (list* '($atan2) arguments))
       (archive-inert '$atan2 arguments)))
 

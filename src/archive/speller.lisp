@@ -1,14 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; A Maxima expression as text of the archive's grammar, with as few parentheses as the grammar allows. Two laws:
-;;; what is read back is the expression again, and a text so spelled is spelled the same after it was read.
-;;; Doubles are written with the fewest digits that read back the same. Look first at archive-spell-at.
+;;; A Maxima expression as text of the archive's grammar, with as few parentheses as the grammar
+;;; allows. Two laws: what is read back is the expression again, and a text so spelled is
+;;; spelled the same after it was read. Doubles are written with the fewest digits that read
+;;; back the same. Look first at archive-spell-at.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/tokens" "archive/parser"))
 
-(defvar *archive-out* nil "What is written, piece by piece, the last one first. (GCL's string streams take time in squares.)")
+(defvar *archive-out* nil
+  "What is written, the last piece first. (GCL's string streams take time in squares.)")
 (defvar *archive-spelled-depth* 0 "Levels of nesting so far.")
 
 (defparameter *archive-levels*
@@ -18,11 +20,13 @@
 (defun archive-level (name) (getf *archive-levels* name))
 
 (defparameter *archive-operator-names*
-  '((%sin . "sin") (%cos . "cos") (%tan . "tan") (%cot . "cot") (%sec . "sec") (%csc . "csc") (%asin . "asin")
-    (%acos . "acos") (%atan . "atan") ($atan2 . "atan2") (%atan2 . "atan2") (%sinh . "sinh") (%cosh . "cosh")
-    (%tanh . "tanh") (%log . "log") (mabs . "abs") (%signum . "signum") ($signum . "signum") ($max . "max") ($min . "min")
-    (%max . "max") (%min . "min") (%sqrt . "sqrt") (%exp . "exp") ($integrate . "integrate") (%integrate . "integrate")
-    ($at . "at") (%at . "at") ($matrix . "matrix") ($notequal . "notequal") (mnotequal . "notequal")
+  '((%sin . "sin") (%cos . "cos") (%tan . "tan") (%cot . "cot") (%sec . "sec") (%csc . "csc")
+    (%asin . "asin") (%acos . "acos") (%atan . "atan") ($atan2 . "atan2") (%atan2 . "atan2")
+    (%sinh . "sinh") (%cosh . "cosh") (%tanh . "tanh") (%log . "log") (%sqrt . "sqrt")
+    (%exp . "exp") (mabs . "abs") (%signum . "signum") ($signum . "signum")
+    ($max . "max") (%max . "max") ($min . "min") (%min . "min")
+    ($integrate . "integrate") (%integrate . "integrate") ($at . "at") (%at . "at")
+    ($matrix . "matrix") ($notequal . "notequal") (mnotequal . "notequal")
     ($piecewise . "piecewise")))
 
 (defun archive-unspellable (control &rest arguments)
@@ -40,7 +44,8 @@
 ;; Numbers
 
 (defun archive-double-digits (double)
-  "Two values for a positive DOUBLE: its shortest digits, and the exponent of ten of the first one."
+  "Two values for a positive DOUBLE: its shortest digits, and the exponent of ten of the first
+one."
   (let* ((*read-default-float-format* 'double-float)
          (printed (prin1-to-string double))
          (mark (position-if (lambda (c) (find c "eEdD")) printed))
@@ -54,19 +59,24 @@
 
 (defun archive-spell-double (double)
   "DOUBLE, not negative, as a decimal that reads back the same."
-  (cond ((not (<= 0 double most-positive-double-float)) (archive-unspellable "a double that is not a number"))
+  (cond ((not (<= 0 double most-positive-double-float))
+         (archive-unspellable "a double that is not a number"))
         ((zerop double) "0.0")
         (t (multiple-value-bind (digits exponent) (archive-double-digits double)
              (cond ((<= 0 exponent 15) (archive-decimal-with-point digits (1+ exponent)))
                    ((<= -5 exponent -1) (archive-decimal-with-point digits (1+ exponent)))
                    (t (let ((size (max exponent (- *archive-decimal-exponent*))))
-                        (format nil "~ae~d" (archive-decimal-with-point digits (- (1+ exponent) size)) size))))))))
+                        (format nil "~ae~d"
+                                (archive-decimal-with-point digits
+                                                            (- (1+ exponent) size)) size))))))))
 
 (defun archive-decimal-with-point (digits whole)
   "DIGITS with the point after the first WHOLE of them; WHOLE may be negative or beyond the end."
   (let ((n (length digits)))
-    (cond ((<= whole 0) (concatenate 'string "0." (make-string (- whole) :initial-element #\0) digits))
-          ((>= whole n) (concatenate 'string digits (make-string (- whole n) :initial-element #\0) ".0"))
+    (cond ((<= whole 0)
+           (concatenate 'string "0." (make-string (- whole) :initial-element #\0) digits))
+          ((>= whole n) (concatenate 'string digits (make-string (- whole n) :initial-element #\0)
+                                     ".0"))
           (t (concatenate 'string (subseq digits 0 whole) "." (subseq digits whole))))))
 
 (defun archive-spell-integer (n)
@@ -109,10 +119,12 @@
           (t (list* (car e) (opposite (cadr e)) (cddr e))))))
 
 (defun archive-divisor-exponent-p (e)
-  (and (mexptp e) (not (eq (cadr e) '$%e)) (mnump (caddr e)) (not (floatp (caddr e))) (mnegp (caddr e))))
+  (and (mexptp e) (not (eq (cadr e) '$%e)) (mnump (caddr e)) (not (floatp (caddr e)))
+       (mnegp (caddr e))))
 
 (defun archive-fraction (e)
-  "Two values for a product, power or number without leading minus: lists of factors above and below the line."
+  "Two values for a product, power or number without leading minus: lists of factors above and
+below the line."
   (let ((above '()) (below '()))
     (dolist (factor (if (mtimesp e) (cdr e) (list e)))
       (cond ((ratnump factor)
@@ -190,7 +202,8 @@
              (mgeqp (archive-spell-relation " >= " e))
              (mand (archive-spell-joined " and " (cdr e) (archive-level :not)))
              (mor (archive-spell-joined " or " (cdr e) (archive-level :and)))
-             (mnot (archive-put "not ") (archive-spelled-deeper (archive-spell-at (cadr e) (archive-level :not))))
+             (mnot (archive-put "not ")
+                   (archive-spelled-deeper (archive-spell-at (cadr e) (archive-level :not))))
              (t (archive-spell-function e))))))
 
 (defun archive-spell-minus (e)
@@ -198,7 +211,8 @@
   (archive-put "-")
   (archive-spelled-deeper
     (let ((positive (archive-without-minus e)))
-      (archive-spell-at positive (archive-level (if (archive-leads-minus-p positive) :power :product))))))
+      (archive-spell-at positive
+                        (archive-level (if (archive-leads-minus-p positive) :power :product))))))
 
 (defun archive-spell-atom (e)
   (cond ((stringp e) (archive-spell-string e))
@@ -210,7 +224,8 @@
 (defun archive-symbol-name (symbol)
   "The name of the Maxima SYMBOL, if the grammar has it."
   (let* ((lisp (symbol-name (or (get symbol 'reversealias) symbol)))
-         (name (and (plusp (length lisp)) (char= (char lisp 0) #\$) (maybe-invert-string-case (subseq lisp 1)))))
+         (name (and (plusp (length lisp)) (char= (char lisp 0) #\$)
+                    (maybe-invert-string-case (subseq lisp 1)))))
     (cond ((member symbol '($%pi $%e $%i)) name)
           ((and name (archive-name-p name)
                 (not (member name '("true" "false") :test #'string=))
@@ -228,7 +243,8 @@
   (archive-put "\""))
 
 (defun archive-terms-in-order (sum)
-  "Terms in the order in which Maxima shows them, but for one without minus in front if there is one."
+  "Terms in the order in which Maxima shows them, but for one without minus in front if there is
+one."
   (let* ((terms (reverse (cdr sum))) (first (find-if-not #'archive-leads-minus-p terms)))
     (if (or (null first) (eq first (car terms)))
         terms
@@ -295,7 +311,8 @@
   (archive-spell-bracketed "(" arguments ")"))
 
 (defun archive-spell-derivative (e)
-  "q' for time derivatives of names, else diff(e, name) or diff(e, name, n), nested for several names."
+  "q' for time derivatives of names, else diff(e, name) or diff(e, name, n), nested for several
+names."
   (destructuring-bind (function &rest pairs) (cdr e)
     (let ((n (length pairs)))
       (cond ((null pairs) (archive-unspellable "a total differential"))
@@ -304,7 +321,8 @@
                  (unless (and (symbolp variable) (integerp order))
                    (archive-unspellable "this derivative: ~a" (core-words (list e))))
                  (cond ((> n 2)
-                        (archive-spell-diff (list* (car e) function (subseq pairs 0 (- n 2))) variable order))
+                        (archive-spell-diff (list* (car e) function (subseq pairs 0 (- n 2)))
+                                            variable order))
                        ((and (eq variable '$t) (<= order 3) (symbolp function))
                         (archive-put (archive-symbol-name function))
                         (archive-put (make-string order :initial-element #\')))
@@ -341,7 +359,8 @@
       (archive-joined (nreverse *archive-out*)))))
 
 (defun archive-settled-text (e &key doubles)
-  "The text of E that is spelled the same after it was read: Maxima may order the factors of a product anew when it is read."
+  "The text of E that is spelled the same after it was read: Maxima may order the factors of a
+product anew when it is read."
   (loop with text = (archive-spell e)
         repeat 5
         do (let ((again (archive-spell (archive-parse-value text :doubles doubles :relations t))))

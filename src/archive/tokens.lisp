@@ -1,8 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; From characters to tokens of the archive's grammar, one at a time, each with its place; nothing is evaluated and the Lisp
-;;; reader never sees the text. A text is a native string: Unicode characters on SBCL, the bytes of UTF-8 on GCL, so that what
-;;; goes back to the terminal shows as it was typed. Numbers are exact (17.76 is 444/25) unless the reader wants doubles.
-;;; Look first at archive-next-token!.
+;;; From characters to tokens of the archive's grammar, one at a time, each with its place;
+;;; nothing is evaluated and the Lisp reader never sees the text. A text is a native string:
+;;; Unicode characters on SBCL, the bytes of UTF-8 on GCL, so that what goes back to the
+;;; terminal shows as it was typed. Numbers are exact (17.76 is 444/25) unless the reader wants
+;;; doubles. Look first at archive-next-token!.
 
 (in-package :maxima)
 
@@ -14,7 +15,8 @@
 (defvar *archive-decimal-exponent* 308 "The largest size of a decimal exponent.")
 
 (defstruct (archive-reader (:conc-name reader-))
-  "A text from START to END whose first character stands in FILE at LINE and COLUMN, and the token that the reader stands on."
+  "A text from START to END whose first character stands in FILE at LINE and COLUMN, and the
+token that the reader stands on."
   (text "") (position 0) (start 0) (end 0) (file nil) (line 1) (column 1) (doubles nil)
   ;; the token: kind, value, primes after a name, where it begins and ends
   (kind :end) (value nil) (primes 0) (from 0) (to 0)
@@ -27,7 +29,8 @@
 
 (defun archive-open-text (text &key file (line 1) (column 1) (start 0) end doubles)
   "A reader that stands on the first token of TEXT."
-  (let ((reader (make-archive-reader :text (archive-simple-text text) :position start :start start :from start :to start
+  (let ((reader (make-archive-reader :text (archive-simple-text text) :position start :start start
+                                     :from start :to start
                                      :end (or end (length text)) :file file :line line :column column
                                      :doubles doubles)))
     (archive-next-token! reader)
@@ -74,7 +77,9 @@
   (case (reader-kind reader)
     (:end "the end of the value")
     (:string "a string")
-    (t (format nil "`~a'" (archive-shown (subseq (reader-text reader) (reader-from reader) (reader-to reader)))))))
+    (t (format nil "`~a'"
+               (archive-shown (subseq (reader-text reader) (reader-from reader)
+                                      (reader-to reader)))))))
 
 ;; Characters
 
@@ -95,7 +100,8 @@
   (declare (type archive-text-string text) (type fixnum position end))
   (loop while (< position end)
         do (let ((c (schar text position)))
-             (cond ((or (char= c #\Space) (char= c #\Tab) (char= c #\Newline) (char= c #\Return)) (incf position))
+             (cond ((or (char= c #\Space) (char= c #\Tab) (char= c #\Newline) (char= c #\Return))
+                    (incf position))
                    ((char= c #\#)
                     (setq position (or (position #\Newline text :start position :end end) end)))
                    (t (return)))))
@@ -141,7 +147,8 @@
         (archive-maxima-number number))))
 
 (defun archive-read-exponent (reader position)
-  "Two values: the decimal exponent that begins at POSITION (0 if there is none) and where it ends."
+  "Two values: the decimal exponent that begins at POSITION (0 if there is none) and where it
+ends."
   (let ((text (reader-text reader)) (end (reader-end reader)))
     (if (not (and (< position end) (char-equal (char text position) #\e)))
         (values 0 position)
@@ -149,11 +156,14 @@
                (from (+ position (if sign 2 1)))
                (to (archive-digits-end text from end)))
           (when (= from to)
-            (archive-fault reader position "`~a' after a number: the digits of an exponent are missing; write * for a product"
+            (archive-fault reader position
+                           "`~a' after a number: the digits of an exponent are missing; write * for a product"
                            (char text position)))
-          (let ((size (if (> (- to from) 9) most-positive-fixnum (parse-integer text :start from :end to))))
+          (let ((size (if (> (- to from) 9) most-positive-fixnum
+                          (parse-integer text :start from :end to))))
             (when (> size *archive-decimal-exponent*)
-              (archive-fault reader position "the exponent is larger than ~d" *archive-decimal-exponent*))
+              (archive-fault reader position "the exponent is larger than ~d"
+                             *archive-decimal-exponent*))
             (values (if (eql sign #\-) (- size) size) to))))))
 
 (defun archive-read-number! (reader)
@@ -165,7 +175,8 @@
     (when (and point (= to (1+ whole)))
       (archive-fault reader whole "found a point, expected digits after it"))
     (when (> (- to from) *archive-digits*)
-      (archive-fault reader from "a number of ~d digits; at most ~d are read" (- to from) *archive-digits*))
+      (archive-fault reader from "a number of ~d digits; at most ~d are read" (- to from)
+                     *archive-digits*))
     (multiple-value-bind (exponent after) (archive-read-exponent reader to)
       (setf (reader-value reader)
             (if (and (not point) (= after to))
@@ -175,7 +186,8 @@
                                  (if point (- to whole 1) 0)
                                  exponent)))
       (when (and (< after end) (let ((c (char text after))) (or (archive-word-p c) (char= c #\.))))
-        (archive-fault reader after "found `~a' directly after a number, expected an operator; write * for a product"
+        (archive-fault reader after
+                       "found `~a' directly after a number, expected an operator; write * for a product"
                        (archive-shown (string (char text after)))))
       (archive-token! reader :number after))))
 
@@ -183,18 +195,21 @@
 
 (defun archive-read-string! (reader)
   "Takes the string at the reader's position; inside it \\\" is a quotation mark and \\\\ a backslash."
-  (let* ((text (reader-text reader)) (end (reader-end reader)) (from (reader-position reader)) (at (1+ from)))
+  (let* ((text (reader-text reader)) (end (reader-end reader)) (from (reader-position reader))
+         (at (1+ from)))
     (setf (reader-value reader)
           (with-output-to-string (out)
             (loop
               (when (or (>= at end) (find (char text at) '(#\Newline #\Return)))
-                (archive-fault reader from "a string without its closing quotation mark on the same line"))
+                (archive-fault reader from
+                               "a string without its closing quotation mark on the same line"))
               (let ((c (char text at)))
                 (incf at)
                 (case c
                   (#\" (return))
                   (#\\ (unless (and (< at end) (find (char text at) "\\\""))
-                         (archive-fault reader (1- at) "found a backslash in a string, expected \\\" or \\\\"))
+                         (archive-fault reader (1- at)
+                                        "found a backslash in a string, expected \\\" or \\\\"))
                    (write-char (char text at) out)
                    (incf at))
                   (t (write-char c out)))))))
@@ -222,7 +237,8 @@
          (to (archive-word-end text (1+ from) (reader-end reader)))
          (name (subseq text from to)))
     (unless (member name '("%pi" "%e" "%i") :test #'string=)
-      (archive-fault reader from "found `~a'; of the names with % only %pi, %e and %i are known" (archive-shown name)))
+      (archive-fault reader from "found `~a'; of the names with % only %pi, %e and %i are known"
+                     (archive-shown name)))
     (setf (reader-value reader) name)
     (archive-token! reader :constant to)))
 
@@ -238,9 +254,9 @@
   kind)
 
 (defparameter *archive-signs*
-  '((#\< . :less) (#\> . :greater) (#\= . :equal) (#\+ . :plus) (#\- . :minus) (#\* . :times) (#\/ . :over) (#\^ . :power)
-    (#\' . :quote) (#\( . :open) (#\) . :close) (#\[ . :open-list) (#\] . :close-list) (#\{ . :open-brace)
-    (#\} . :close-brace) (#\, . :comma) (#\: . :colon))
+  '((#\< . :less) (#\> . :greater) (#\= . :equal) (#\+ . :plus) (#\- . :minus) (#\* . :times)
+    (#\/ . :over) (#\^ . :power) (#\' . :quote) (#\( . :open) (#\) . :close) (#\[ . :open-list)
+    (#\] . :close-list) (#\{ . :open-brace) (#\} . :close-brace) (#\, . :comma) (#\: . :colon))
   "Signs of one character.")
 
 (defun archive-long-sign (first second)
