@@ -61,7 +61,6 @@
            (quotients (progn (algebra-order-kernels)
                              (mapcar (lambda (row) (mapcar #'algebra-evaluate row)) skeletons)))
            (found (algebra-inverse-form (cdr quotients) (car quotients))))
-      (algebra-guard-product (cdr found) (car found))
       (algebra-general-reduced (cons (car found) (ptimes 2 (cdr found)))))))
 
 ;;; Factored.

@@ -9,9 +9,13 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/size"))
+  (core-require "algebra/normal" "algebra/size" "linmodel/polar"))
 
-(defstruct linmodel-arithmetic lift lower add multiply sine cosine (size (constantly 0)))
+(defstruct linmodel-arithmetic
+  lift lower add multiply sine cosine
+  (size (constantly 0))
+  turn      ; of (x y angle): the components in axes turned by an angle, where sums are not enough
+  product)  ; of (x y v w): x*v + y*w, or nil
 
 (defvar *linmodel-moderate* 20000
   "Where more terms than this are foretold, the canonical form is taken only if it is asked for.")
@@ -33,9 +37,6 @@
     (algebra-order-kernels)
     (funcall function (linmodel-canonical-arithmetic))))
 
-(defun linmodel-sine (angle) (simplify (list '(%sin) angle)))
-(defun linmodel-cosine (angle) (simplify (list '(%cos) angle)))
-
 (defun linmodel-general-arithmetic ()
   "Maxima's general expressions, nothing multiplied out."
   (make-linmodel-arithmetic
@@ -44,7 +45,9 @@
    :add (lambda (x y) (add x y))
    :multiply (lambda (x y) (mul x y))
    :sine #'linmodel-sine
-   :cosine #'linmodel-cosine))
+   :cosine #'linmodel-cosine
+   :turn #'linmodel-turned-plane
+   :product #'linmodel-plane-product))
 
 (defun linmodel-scanning-arithmetic ()
   "Meets every kernel, so that the ring of the canonical form knows them all; computes nothing."
@@ -103,6 +106,20 @@
   (mapcar (lambda (x y) (linmodel-plus a x y)) u v))
 
 (defun linmodel-dot (a u v)
+  (or (linmodel-plane-dot a u v)
+      (linmodel-sum-of-products a u v)))
+
+(defun linmodel-plane-dot (a u v)
+  "For an arithmetic that knows polar angles, where one component of U or V is 0; else nil."
+  (let ((product (linmodel-arithmetic-product a)))
+    (when product
+      (loop for k in '(0 1 2)
+            for i = (mod (+ k 1) 3)
+            for j = (mod (+ k 2) 3)
+            when (or (eql 0 (nth k u)) (eql 0 (nth k v)))
+              return (funcall product (nth i u) (nth j u) (nth i v) (nth j v))))))
+
+(defun linmodel-sum-of-products (a u v)
   (let ((sum 0))
     (mapc (lambda (x y) (setq sum (linmodel-plus a sum (linmodel-times a x y)))) u v)
     sum))

@@ -14,11 +14,12 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "linmodel/arithmetic"))
 
-(defstruct linmodel-turn axis sine cosine row)
+(defstruct linmodel-turn axis angle sine cosine row)
 
 (defun linmodel-read-turn (a turn)
   (destructuring-bind (axis angle row) (cdr turn)
     (make-linmodel-turn :axis axis
+                        :angle angle
                         :sine (funcall (linmodel-arithmetic-sine a) angle)
                         :cosine (funcall (linmodel-arithmetic-cosine a) angle)
                         :row (linmodel-lift-vector a row))))
@@ -34,15 +35,22 @@
   (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr (sixth link))))
 
 (defun linmodel-turned (a turn vector)
-  "The components of VECTOR in axes turned about one of them: x := c*x + s*y, y := c*y - s*x."
+  "The components of VECTOR in axes turned about one of them."
   (let* ((axis (linmodel-turn-axis turn)) (i (mod axis 3)) (j (mod (1+ axis) 3))
-         (sine (linmodel-turn-sine turn)) (cosine (linmodel-turn-cosine turn))
          (x (nth i vector)) (y (nth j vector)) (components (copy-list vector)))
-    (flet ((times (u v) (linmodel-times a u v)))
-      (setf (nth i components) (linmodel-plus a (times cosine x) (times sine y))
-            (nth j components) (linmodel-plus a (times cosine y)
-                                              (linmodel-minus a (times sine x)))))
-    components))
+    (destructuring-bind (x y) (if (linmodel-arithmetic-turn a)
+                                  (funcall (linmodel-arithmetic-turn a) x y
+                                           (linmodel-turn-angle turn))
+                                  (linmodel-turned-pair a turn x y))
+      (setf (nth i components) x (nth j components) y)
+      components)))
+
+(defun linmodel-turned-pair (a turn x y)
+  "x := c*x + s*y, y := c*y - s*x."
+  (flet ((times (u v) (linmodel-times a u v)))
+    (let ((sine (linmodel-turn-sine turn)) (cosine (linmodel-turn-cosine turn)))
+      (list (linmodel-plus a (times cosine x) (times sine y))
+            (linmodel-plus a (times cosine y) (linmodel-minus a (times sine x)))))))
 
 (defun linmodel-turned-by-all (a turns vector)
   (dolist (turn turns vector)

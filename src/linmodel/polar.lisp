@@ -1,0 +1,72 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Plane vectors of general expressions by polar angles, so that turns about one axis, one after the
+;;; other, are one turn: (x, y) is the sum of
+;;;     (p cos(u) + r sin(u), r cos(u) - p sin(u)),
+;;; the vectors (p, r) in axes turned by u; a further turn adds to u. Two turns by a and b - a leave
+;;; cos(b), and the velocities of a plane chain stay as short as the chain is.
+
+(in-package :maxima)
+
+(defun linmodel-sine (angle) (simplify (list '(%sin) angle)))
+(defun linmodel-cosine (angle) (simplify (list '(%cos) angle)))
+
+(defun linmodel-terms (e)
+  (cond ((eql e 0) '())
+        ((mplusp e) (cdr e))
+        (t (list e))))
+
+(defun linmodel-factors (e)
+  (if (mtimesp e) (cdr e) (list e)))
+
+(defun linmodel-polar (x y)
+  "The vector (X, Y) as a list of (u p r)."
+  (let ((rest-y (linmodel-terms y)) (rest-x '()) (parts '()))
+    (dolist (term (linmodel-terms x))
+      (destructuring-bind (&optional part partner) (linmodel-polar-part term rest-y)
+        (cond (part (push part parts)
+                    (setq rest-y (remove partner rest-y :test #'alike1 :count 1)))
+              (t (push term rest-x)))))
+    (if (or rest-x rest-y)
+        (cons (list 0 (addn (nreverse rest-x) nil) (addn rest-y nil)) parts)
+        parts)))
+
+(defun linmodel-polar-part (term others)
+  "The (u p r) of the TERM of x and its partner among the OTHERS, the terms of y; or nil."
+  (dolist (factor (linmodel-factors term))
+    (when (and (consp factor) (member (caar factor) '(%cos %sin)))
+      (let* ((angle (cadr factor)) (coefficient (div term factor))
+             (cosine (eq (caar factor) '%cos))
+             (partner (mul coefficient
+                           (if cosine (linmodel-sine angle) (linmodel-cosine angle)))))
+        (dolist (sign (if cosine '(-1 1) '(1 -1)))
+          (let ((signed (mul sign partner)))
+            (when (member signed others :test #'alike1)
+              (return-from linmodel-polar-part
+                (list (if cosine
+                          (list (mul (- sign) angle) coefficient 0)
+                          (list (mul sign angle) 0 (mul sign coefficient)))
+                      signed)))))))))
+
+(defun linmodel-turned-plane (x y angle)
+  "(X, Y) in axes turned by ANGLE."
+  (let ((turned-x 0) (turned-y 0))
+    (loop for (u p r) in (linmodel-polar x y)
+          for sum = (add u angle)
+          for cosine = (linmodel-cosine sum)
+          for sine = (linmodel-sine sum)
+          do (setq turned-x (add turned-x (mul p cosine) (mul r sine))
+                   turned-y (add turned-y (mul r cosine) (mul -1 p sine))))
+    (list turned-x turned-y)))
+
+(defun linmodel-plane-product (x y v w)
+  "X*V + Y*W, by one polar angle where each of (X, Y), (V, W) has one; else nil."
+  (let ((one (linmodel-polar x y)) (other (linmodel-polar v w)))
+    (cond ((or (null one) (null other)) 0)
+          ((or (cdr one) (cdr other)) nil)
+          (t (linmodel-polar-product (car one) (car other))))))
+
+(defun linmodel-polar-product (one other)
+  (destructuring-bind ((u p r) (z q s)) (list one other)
+    (let ((angle (sub u z)))
+      (add (mul (add (mul p q) (mul r s)) (linmodel-cosine angle))
+           (mul (sub (mul r q) (mul p s)) (linmodel-sine angle))))))
