@@ -1,11 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What the room of analysis can compute, for archives, for equations and for functions typed in the session. Data only.
-;;; The kinds "function", "matrices", "pencil" and "polynomial" stand for calls on expressions.
+;;; What the room of analysis can compute, for archives, for equations and for functions typed in
+;;; the session. Data only. The kinds "function", "matrices", "pencil" and "polynomial" stand for
+;;; calls on expressions.
 
 (in-package :maxima)
 
-(defparameter *analysis-motions* '("mechanical" "lagrangian") "Kinds whose equations are of second order.")
-(defparameter *analysis-states* '("circuit" "equations") "Kinds whose equations are of first order.")
+(defparameter *analysis-motions* '("mechanical"
+  "lagrangian") "Kinds whose equations are of second order.")
+(defparameter *analysis-states* '("circuit"
+  "equations") "Kinds whose equations are of first order.")
 (defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
 (defparameter *analysis-none* '((mlist simp)))
 (defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
