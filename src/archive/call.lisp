@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; A call taken apart: what is the system, what are the arguments and options, which of the forms of API it is. Everything given
-;;; becomes a named quantity in the table `given', on a level with the keys of the archive, which it overrules.
+;;; A call taken apart: what is the system, what are the arguments and options, which of the forms
+;;; of API it is. Everything given becomes a named quantity in the table `given', on a level with
+;;; the keys of the archive, which it overrules.
 
 (in-package :maxima)
 
@@ -89,7 +90,8 @@
            collect (format nil "~a(~{~a~^, ~})" name (remove "&optional" (cdr form) :test #'equal))))))
 
 (defun archive-option-name (equation)
-  "The name of an option. `verbose', `functions' and `values' are variables of Maxima's own and arrive as their values."
+  "The name of an option. `verbose', `functions' and `values' are variables of Maxima's own and
+arrive as their values."
   (let ((left (cadr equation)))
     (cond ((stringp left) left)
           ((member left '(nil t)) "verbose")
@@ -103,7 +105,8 @@
   '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved" "matrices")
     (:form "canonical, factored or program" "form")
     (:file "a file name in double quotes" "result"))
-  "What the value of an option may be, and the options of which that holds; other values are looked at where they are used.")
+  "What the value of an option may be, and the options of which that holds; other values are looked
+at where they are used.")
 
 (defun archive-option-fits (type value)
   (ecase type

@@ -1,14 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The dialog: asks for the keys of an archive in the order of the table of keys, the system first, then section by section.
-;;; Every answer goes through the parser and the checks that read archives. `?' explains, Enter takes the default, `.' takes the
-;;; defaults of the rest of a section. At the end: the echo, changes, the file. End of input leaves nothing behind.
+;;; The dialog: asks for the keys of an archive in the order of the table of keys, the system
+;;; first, then section by section. Every answer goes through the parser and the checks that read
+;;; archives. `?' explains, Enter takes the default, `.' takes the defaults of the rest of a
+;;; section. At the end: the echo, changes, the file. End of input leaves nothing behind.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/keys" "archive/check" "archive/store"))
 
-(defvar *archive-fresh-input* nil "True until the first line is read: what is left of the line that called us is passed over.")
+(defvar *archive-fresh-input* nil
+  "True until the first line is read: what is left of the line that called us is passed over.")
 
 (defstruct archive-item section key text)
 
@@ -63,7 +65,8 @@
   (if (and (eq (archive-key-type key) :text) (plusp (length answer))) (archive-quoted-text answer) answer))
 
 (defun archive-ask-key (key section required)
-  "The text of the value of KEY; nil for its default, :rest where the person takes all defaults that follow."
+  "The text of the value of KEY; nil for its default, :rest where the person takes all defaults
+that follow."
   (loop
     (let* ((answer (archive-ask-line (archive-question-text key section required)))
            (text (archive-answer-for-archive key answer)))
@@ -222,7 +225,8 @@
         (return file)))))
 
 (defun archive-dialog (name kinds)
-  "Asks for the description of a system of one of KINDS for the function NAME; returns the path of the archive written."
+  "Asks for the description of a system of one of KINDS for the function NAME; returns the path of
+the archive written."
   (let ((*archive-fresh-input* (null $load_pathname)))
     (core-say (format nil "~a: description of a system. ? explains a question, Enter takes the answer in [ ], . takes them all to the end of a section."
                       name))

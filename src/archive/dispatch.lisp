@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The dispatcher: turns a call such as Lagrangian("pendulum.txt", save = false) into quantities, follows the register's rules
-;;; from the target down to the keys of the archive, runs each pure function in the guard, saves the steps, returns the result.
-;;; Look first at archive-dispatch, then at archive-value.
+;;; The dispatcher: turns a call such as Lagrangian("pendulum.txt", save = false) into quantities,
+;;; follows the register's rules from the target down to the keys of the archive, runs each pure
+;;; function in the guard, saves the steps, returns the result. Look first at archive-dispatch,
+;;; then at archive-value.
 
 (in-package :maxima)
 

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; From a target down to the keys: each quantity is given, or stands in a result section that is still good, or follows from a
-;;; rule of the register, or is a key of the archive. What a step needs is known before anything is computed, so a result that
-;;; is up to date costs one reading.
+;;; From a target down to the keys: each quantity is given, or stands in a result section that is
+;;; still good, or follows from a rule of the register, or is a key of the archive. What a step
+;;; needs is known before anything is computed, so a result that is up to date costs one reading.
 
 (in-package :maxima)
 
@@ -101,7 +101,8 @@
 ;;; Values
 
 (defun archive-value (call name &optional (default nil default-given))
-  "The value of the quantity NAME, in this order: given, known, stored, by rule, a key, the default."
+  "The value of the quantity NAME, in this order: given, known, stored, by rule, a key, the
+default."
   (multiple-value-bind (value given) (gethash name (archive-call-given call))
     (if given
         value
@@ -162,7 +163,8 @@
              (archive-edited-digest (archive-call-archive call) name)))
 
 (defun archive-keeps-section-p (call name)
-  "Whether a stored section NAME stays although another result was computed: one of other options that was edited by hand,
+  "Whether a stored section NAME stays although another result was computed: one of other options
+that was edited by hand,
 or that this call only passes through."
   (and (archive-stored-p call name)
        (not (archive-same-options-p call name))
@@ -198,7 +200,8 @@ or that this call only passes through."
       (archive-report-time call name began)
       value)))
 
-;;; Abbreviations are names for the person: results are saved and returned in them, and computed without them
+;;; Abbreviations are names for the person: results are saved and returned in them, and computed
+;;; without them
 
 (defun archive-abbreviations (call)
   (cdr (archive-value call "abbreviations" '((mlist simp)))))

@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What the room of circuits can compute from a circuit archive, or from a potential typed in the session. Data only.
-;;; The kind "potential" stands for calls on a potential: P, [i1 = L1, ..], [u3 = C3, ..].
+;;; What the room of circuits can compute from a circuit archive, or from a potential typed in the
+;;; session. Data only. The kind "potential" stands for calls on a potential: P, [i1 = L1, ..], [u3
+;;; = C3, ..].
 
 (in-package :maxima)
 

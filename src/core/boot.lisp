@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The first file a package loads: it finds the repository, keeps compiled Lisp in the user's cache, and loads parts on demand.
-;;; A part is named by room and subject, "forms/lagrange"; it is loaded once, and again when kill() has removed it.
-;;; Compiled files are keyed by Lisp, Maxima and the text of the rooms a part is built from, so a stale one is never used.
+;;; The first file a package loads: it finds the repository, keeps compiled Lisp in the user's
+;;; cache, and loads parts on demand. A part is named by room and subject, "forms/lagrange"; it is
+;;; loaded once, and again when kill() has removed it. Compiled files are keyed by Lisp, Maxima and
+;;; the text of the rooms a part is built from, so a stale one is never used.
 
 (in-package :maxima)
 
@@ -65,7 +66,8 @@
                 (setq key (core-digest-file file key)))))))
 
 (defun core-part-key (room)
-  "A digest of all Lisp text that a part of ROOM may be built from: its own room, the core and the algebra."
+  "A digest of all Lisp text that a part of ROOM may be built from: its own room, the core and the
+algebra."
   (let ((key 17))
     (dolist (name (remove-duplicates (list "core" (if (equal room "archive") "core" "algebra") room) :test #'equal) key)
       (setq key (logand #xfffffffffffffff (+ (* 131 key) (core-room-key name)))))))
@@ -78,7 +80,8 @@
     (handler-bind ((warning #'muffle-warning)) (funcall function))))
 
 (defun core-compile-to (source target)
-  "Compiles SOURCE under a name of this process alone, then renames: other processes see a whole file or none."
+  "Compiles SOURCE under a name of this process alone, then renames: other processes see a whole
+file or none."
   (ignore-errors
    (ensure-directories-exist (core-pathname target))
    (let* ((draft (format nil "~a.~a.~a" (subseq target 0 (position #\. target :from-end t)) (core-process-id)
@@ -88,7 +91,8 @@
      target)))
 
 (defun core-compiler-p ()
-  "Whether Lisp can be compiled here: GCL needs the C compiler it was built with, which a distribution may leave out."
+  "Whether Lisp can be compiled here: GCL needs the C compiler it was built with, which a
+distribution may leave out."
   #-gcl t
   #+gcl (let* ((command (string-left-trim " " compiler::*cc*)) (name (subseq command 0 (position #\Space command))))
           (some (lambda (folder) (probe-file (concatenate 'string folder name))) '("" "/usr/bin/" "/usr/local/bin/" "/bin/"))))
@@ -106,7 +110,8 @@
     t))
 
 (defun core-load-mac (source)
-  "Loads Maxima text; its functions stay off the user's list `functions', so kill(all) leaves them. Returns their names."
+  "Loads Maxima text; its functions stay off the user's list `functions', so kill(all) leaves them.
+Returns their names."
   (let (($functions (list '(mlist simp))) ($values (copy-list $values)) ($load_pathname nil))
     ($batchload (core-pathname source))
     (mapcar #'caar (cdr $functions))))

@@ -1,13 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; A face is a package as the user loads it: a version and a list of public functions. Each public function becomes a Lisp
-;;; function that hands its arguments to the dispatcher, so kill(all) leaves it and a call is what loads the parts it needs.
+;;; A face is a package as the user loads it: a version and a list of public functions. Each public
+;;; function becomes a Lisp function that hands its arguments to the dispatcher, so kill(all)
+;;; leaves it and a call is what loads the parts it needs.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "core/help"))
 
-(defvar *core-dispatcher* nil "What answers a call: a function of a public name and the arguments. The dispatcher's part sets it.")
+(defvar *core-dispatcher* nil
+  "What answers a call: a function of a public name and the arguments. The dispatcher's part sets
+it.")
 (defvar *core-faces* '() "Faces loaded: (name . version).")
 
 (defun core-load-registers ()
@@ -16,7 +19,8 @@
       (core-require (concatenate 'string room "/register")))))
 
 (defun core-install (public)
-  "Makes the public function PUBLIC callable. (Maxima has declared `name' special: no closure may capture it.)"
+  "Makes the public function PUBLIC callable. (Maxima has declared `name' special: no closure may
+capture it.)"
   (let ((symbol (core-symbol public)))
     (setf (symbol-function symbol)
           (lambda (&rest arguments)

@@ -1,12 +1,15 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The guard around every computation: option variables at Maxima's own defaults, the user's variables and dependencies out of
-;;; sight, facts in a context of their own, no question asked; and everything as it was afterwards, errors included.
-;;; Maxima's variables are global, so setting and restoring their values does nearly all of it.
+;;; The guard around every computation: option variables at Maxima's own defaults, the user's
+;;; variables and dependencies out of sight, facts in a context of their own, no question asked;
+;;; and everything as it was afterwards, errors included. Maxima's variables are global, so setting
+;;; and restoring their values does nearly all of it.
 
 (in-package :maxima)
 
 (defvar *core-guarded* nil "True inside the guard.")
-(defvar *core-kept-values* nil "Variables that share packages bound while guarded, with their values: seen inside the guard only.")
+(defvar *core-kept-values* nil
+  "Variables that share packages bound while guarded, with their values: seen inside the guard
+only.")
 
 (defparameter *core-kept-variables*
   '($linenum $labels $inchar $outchar $linechar $context $contexts $activecontexts $error $error_syms $errormsg
@@ -17,7 +20,8 @@
   "Variables that are not options of a computation, or whose change must last.")
 
 (defun core-with-values (names values function)
-  "Calls FUNCTION while NAMES have VALUES, or none where VALUES run out. (GCL cannot load a compiled progv.)"
+  "Calls FUNCTION while NAMES have VALUES, or none where VALUES run out. (GCL cannot load a
+compiled progv.)"
   (let ((saved (mapcar (lambda (name) (if (boundp name) (list name (symbol-value name)) (list name))) names)))
     (unwind-protect
          (progn
@@ -28,7 +32,8 @@
             do (if value (set name (car value)) (makunbound name))))))
 
 (defun core-information-lists ()
-  "The lists that Maxima keeps of what the user made: functions, rules, options set, ...; and the last `piece' of an expression."
+  "The lists that Maxima keeps of what the user made: functions, rules, options set, ...; and the
+last `piece' of an expression."
   (remove-if-not #'boundp (cons '$piece (set-difference (cdr $infolists) '($labels $contexts $activecontexts)))))
 
 (defun core-default-options ()
@@ -75,7 +80,8 @@
   (funcall function))
 
 (defun core-with-facts (facts function)
-  "Calls FUNCTION in a context below the user's in which FACTS are assumed; where the two disagree the user's are left out."
+  "Calls FUNCTION in a context below the user's in which FACTS are assumed; where the two disagree
+the user's are left out."
   (let ((contradicted (core-contradicted facts)))
     (cond (contradicted
            (core-warn "the archive says ~a; what you assumed in the session contradicts it and is not used here"
@@ -116,7 +122,8 @@
           (remove #\Newline (princ-to-string condition))))
 
 (defun core-caught (function)
-  "Two values: what FUNCTION returns, and nil or the text of the error that ended it. Maxima's own bindings are undone."
+  "Two values: what FUNCTION returns, and nil or the text of the error that ended it. Maxima's own
+bindings are undone."
   (let ((text nil) (values nil) (*merror-signals-$error-p* t) (errcatch (cons bindlist loclist)))
     (declare (special errcatch))
     (handler-case

@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Help: `? Lagrangian' answers from doc/dynarch.info by the index beside it, in the way of Maxima's share packages. The index
-;;; is read when the first package is loaded, the text when somebody asks.
+;;; Help: `? Lagrangian' answers from doc/dynarch.info by the index beside it, in the way of
+;;; Maxima's share packages. The index is read when the first package is loaded, the text when
+;;; somebody asks.
 
 (in-package :maxima)
 

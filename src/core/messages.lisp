@@ -1,11 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What is said to the person: errors, warnings, progress, and the notes that go into a result (how it was checked, what was
-;;; left out). Every message begins with the public function that runs; the archive tells the line of a key.
+;;; What is said to the person: errors, warnings, progress, and the notes that go into a result
+;;; (how it was checked, what was left out). Every message begins with the public function that
+;;; runs; the archive tells the line of a key.
 
 (in-package :maxima)
 
 (defvar *core-function* nil "Name of the public function that runs, a string.")
-(defvar *core-place* nil "Function of section and key: their place, such as \"pendulum.txt, line 14\", or nil.")
+(defvar *core-place* nil
+  "Function of section and key: their place, such as \"pendulum.txt, line 14\", or nil.")
 (defvar *core-checks* nil "How the result was checked, newest first.")
 (defvar *core-left-out* nil "What the result leaves out, newest first.")
 (defvar *core-started* nil "Internal real time at which the call began.")
@@ -89,7 +91,8 @@
           (t (core-error "~a is missing" (core-section-name key))))))
 
 (defun core-attempt (function)
-  "A list of the value of FUNCTION, or nil when it ends in an error; nothing is printed and `error' keeps its value."
+  "A list of the value of FUNCTION, or nil when it ends in an error; nothing is printed and `error'
+keeps its value."
   (let (($errormsg nil) ($error $error)) (errcatch (funcall function))))
 
 (defmspec $core_attempt (form)

@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The register of who can compute what. A QUANTITY has a name: a public function ("Lagrangian") or a key ("coordinates").
-;;; A RULE says how a quantity of a kind of archive comes about: a pure function of a part applied to other quantities, a
-;;; key of the description, or a part of a record. Each room states its rules as data in register.lisp; the dispatcher follows them.
+;;; The register of who can compute what. A QUANTITY has a name: a public function ("Lagrangian")
+;;; or a key ("coordinates"). A RULE says how a quantity of a kind of archive comes about: a pure
+;;; function of a part applied to other quantities, a key of the description, or a part of a
+;;; record. Each room states its rules as data in register.lisp; the dispatcher follows them.
 
 (in-package :maxima)
 
@@ -32,7 +33,8 @@
         (append (remove rule (gethash name *core-rules*) :test #'core-same-case-p) (list rule))))
 
 (defun core-rule (name kinds part function &rest inputs)
-  "NAME is FUNCTION of PART applied to INPUTS: names, or (name default). KINDS is a list of kinds or :any."
+  "NAME is FUNCTION of PART applied to INPUTS: names, or (name default). KINDS is a list of kinds
+or :any."
   (core-add-rule name (make-core-rule :kinds kinds :part part :function (core-symbol function) :inputs inputs)))
 
 (defun core-rule-given (option name kinds part function &rest inputs)
@@ -48,7 +50,8 @@
   (core-add-rule name (make-core-rule :kinds kinds :record record :field field)))
 
 (defun core-read-symbol (symbol)
-  "SYMBOL as Maxima's own reader gives it: gamma, zeta and lambda are %gamma, %zeta and lambda without $ inside."
+  "SYMBOL as Maxima's own reader gives it: gamma, zeta and lambda are %gamma, %zeta and lambda
+without $ inside."
   (let ((alias (get symbol 'alias)))
     (if (and alias (char/= (char (symbol-name alias) 0) #\$)) alias symbol)))
 
@@ -86,7 +89,8 @@
     (core-error "~a is not in src/~a" (core-spelling (rule-function rule)) (rule-part rule)))
   (apply #'mfuncall (rule-function rule) inputs))
 
-(defvar *core-abbreviator* nil "Part and function that express a result in the archive's abbreviations.")
+(defvar *core-abbreviator* nil
+  "Part and function that express a result in the archive's abbreviations.")
 
 (defun core-abbreviator (part function)
   (setq *core-abbreviator* (cons part (core-symbol function))))
