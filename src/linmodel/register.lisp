@@ -15,11 +15,14 @@
 (core-public "Lagrangian" :kinds '("mechanical"))
 (core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description" '("form" $auto))
 
-;;; What the forms take beside L: the keys of [system] and what springs, forces, torques and rotors add to them
+;;; What the forms take beside L: the keys of [system] and what springs, forces, torques and rotors
+;;; add to them
 
 (core-rule "coordinates" '("mechanical") "linmodel/loads" "linmodel_coordinates" "description")
-(core-rule "rayleigh" '("mechanical") "linmodel/loads" "linmodel_rayleigh" "description")
-(core-rule "forces" '("mechanical") "linmodel/loads" "linmodel_forces" "description")
+(core-rule "rayleigh" '("mechanical") "linmodel/loads" "linmodel_rayleigh"
+  "description" '("form" $auto))
+(core-rule "forces" '("mechanical") "linmodel/loads" "linmodel_forces"
+  "description" '("form" $auto))
 (core-rule "constraints" '("mechanical") "linmodel/loads" "linmodel_constraints" "description")
 (core-rule "nonholonomic" '("mechanical") "linmodel/loads" "linmodel_nonholonomic" "description")
 (core-rule "momenta" '("mechanical") "linmodel/loads" "linmodel_momenta" "description")
