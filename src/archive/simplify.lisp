@@ -41,22 +41,30 @@
          ($demoivre nil) ($exponentialize nil) ($halfangles nil) ($triginverses t) ($trigsign t)
          ($%piargs t) ($%iargs t) ($negdistrib t) ($expop 0) ($expon 0) ($maxposex 1000)
          ($maxnegex 1000) ($logsimp t) ($lognegint nil) ($numer_pbranch nil) ($logarc nil)
-         ($ratsimpexpons nil) ($listarith t) ($doallmxops t) ($ratprint nil))
+         ($ratsimpexpons nil) ($listarith t) ($doallmxops t) ($ratprint nil) ($ratfac nil)
+         ($algebraic nil))
      (archive-calling-plain-signs (lambda () ,@body))))
 
 (defun archive-calling-plain-signs (function)
-  "Calls FUNCTION while $sign, $csign and $asksign are archive-plain-sign."
-  (let ((sign (symbol-function '$sign)) (csign (symbol-function '$csign))
-        (asksign (symbol-function '$asksign)))
+  "Calls FUNCTION while signs are those of archive-plain-sign, and nothing is known of names."
+  (let* ((names '($sign $csign $asksign kindp))
+         (functions (mapcar #'symbol-function names))
+         (kindp (symbol-function 'kindp)))
     (unwind-protect
          (progn
-           (setf (symbol-function '$sign) #'archive-plain-sign
-                 (symbol-function '$csign) #'archive-plain-sign
-                 (symbol-function '$asksign) #'archive-plain-sign)
+           (dolist (name '($sign $csign $asksign))
+             (setf (symbol-function name) #'archive-plain-sign))
+           (setf (symbol-function 'kindp)
+                 (lambda (e property)
+                   (and (not (archive-users-name-p e)) (funcall kindp e property))))
            (funcall function))
-      (setf (symbol-function '$sign) sign
-            (symbol-function '$csign) csign
-            (symbol-function '$asksign) asksign))))
+      (loop for name in names for old in functions do (setf (symbol-function name) old)))))
+
+(defun archive-users-name-p (e)
+  "True for a name of which the session may have declared something: no constant, no function."
+  (and e (symbolp e)
+       (let ((name (symbol-name e)))
+         (and (> (length name) 1) (char= (char name 0) #\$) (char/= (char name 1) #\%)))))
 
 (defun archive-number-sign (number)
   (cond ((zerop1 number) '$zero)
