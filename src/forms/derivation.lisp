@@ -108,11 +108,29 @@
 
 ;;; Results as expressions.
 
+(defparameter *forms-ring-limit* 100000
+  "An L that would have more terms than this when multiplied out is left as it stands.")
+
+(defun forms-terms (e)
+  "How many terms E has at most when it is multiplied out."
+  (cond ((atom e) 1)
+        ((mbagp e) (reduce #'+ (mapcar #'forms-terms (cdr e))))
+        ((eq (caar e) 'mplus) (reduce #'+ (mapcar #'forms-terms (cdr e))))
+        ((eq (caar e) 'mtimes) (reduce #'* (mapcar #'forms-terms (cdr e))))
+        ((and (mexptp e) (integerp (caddr e)) (< 1 (caddr e) 20))
+         (expt (forms-terms (cadr e)) (caddr e)))
+        (t 1)))
+
 (defun forms-in-ring (plain q v a back function)
-  "FUNCTION of the derivation and of a function that writes a quotient with BACK's names; nil
-where L is not served or too large."
+  "FUNCTION of the derivation, BACK's names being written; nil where L is not served, too-large
+where it is too long."
+  (if (> (forms-terms plain) *forms-ring-limit*)
+      'too-large
+      (forms-in-small-ring plain q v a back function)))
+
+(defun forms-in-small-ring (plain q v a back function)
   (catch 'algebra-too-large
-    (let ((*algebra-may-give-up* t) (*algebra-limit* 100000))
+    (let ((*algebra-may-give-up* t) (*algebra-limit* *forms-ring-limit*))
       (with-algebra-ring
         (let ((derivation (forms-derivation-of (cdr plain) (cdr q) (cdr v) (cdr a))))
           (when derivation
