@@ -4,7 +4,9 @@
 ;;; d/dt is a derivation of the ring like d/dq: the rate of a kernel k is
 ;;;     sum dk/dq_j q_j' + dk/dt,  and q_j'' for the velocity of q_j.
 ;;; Served is an L whose kernels are free of velocities and which has no coordinates below the line;
-;;; Maxima's simplifier, quadratic in the length of sums, sees neither L nor the equations.
+;;; Maxima's simplifier, quadratic in the length of sums, sees neither L nor the equations (three
+;;; bodies, six angles, full tensors: 0.6 s instead of 4 s; seconds grow with the length of the result,
+;;; which grows about eightfold with each body).
 
 (in-package :maxima)
 

@@ -3,7 +3,8 @@
 ;;; minors being computed once. Coordinates without products in A have fractions of their own.
 ;;; Numerator and determinant are polynomials in the kernels (canonical) or sums of products that
 ;;; nest as the minors do (factored); the length of the latter is known before they are formed,
-;;; by the same expansion over numbers.
+;;; by the same expansion over numbers. Plane chain of 5 links: 0.1 s; six joined coordinates of rods
+;;; 3 s, of bodies with full tensors refused: minors grow with the factorial of a block's order.
 
 (in-package :maxima)
 
