@@ -3,7 +3,7 @@
 ;;; rational number of Lisp) or a node: an operation on elements, or an input. Equal operations on
 ;;; equal elements are one node (hash consing), so that what is shared is computed once; a node is
 ;;; younger than its parts, so that the order of birth is an order of computation.
-;;; The rules are x*0, x*1, x + 0, constants among themselves, signs drawn outwards, and one
+;;; The rules are x*0, x*1, x + 0, constants among themselves, signs and factors drawn outwards, one
 ;;; order of commutative parts. See algebra-program-add first.
 
 (in-package :maxima)
@@ -44,6 +44,10 @@
 (defun algebra-operation-p (operation element)
   (and (algebra-node-p element) (eq (algebra-node-operation element) operation)))
 
+(defun algebra-scaled-p (element)
+  "Whether ELEMENT is a constant times something."
+  (and (algebra-operation-p :multiply element) (numberp (algebra-node-left element))))
+
 (defun algebra-in-order-p (x y)
   (< (algebra-node-index x) (algebra-node-index y)))
 
@@ -54,7 +58,7 @@
         ((algebra-operation-p :negate x) (algebra-node-left x))
         ((algebra-operation-p :subtract x)
          (algebra-program-subtract (algebra-node-right x) (algebra-node-left x)))
-        ((and (algebra-operation-p :multiply x) (numberp (algebra-node-left x)))
+        ((algebra-scaled-p x)
          (algebra-program-multiply (- (algebra-node-left x)) (algebra-node-right x)))
         (t (algebra-make-node :negate x))))
 
@@ -82,16 +86,21 @@
   (cond ((numberp y) (if (numberp x) (* x y) (algebra-program-multiply y x)))
         ((eql x 0) 0)
         ((eql x 1) y)
-        ((eql x -1) (if (and (algebra-operation-p :multiply y) (numberp (algebra-node-left y)))
+        ((eql x -1) (if (algebra-scaled-p y)
                         (algebra-program-multiply (- (algebra-node-left y)) (algebra-node-right y))
                         (algebra-program-negate y)))
         ((algebra-operation-p :negate y)
          (algebra-program-negate (algebra-program-multiply x (algebra-node-left y))))
         ((algebra-operation-p :negate x)
          (algebra-program-negate (algebra-program-multiply (algebra-node-left x) y)))
-        ((and (numberp x) (algebra-operation-p :multiply y) (numberp (algebra-node-left y)))
+        ((and (numberp x) (algebra-scaled-p y))
          (algebra-program-multiply (* x (algebra-node-left y)) (algebra-node-right y)))
-        ((or (numberp x) (algebra-in-order-p x y)) (algebra-make-node :multiply x y))
+        ((numberp x) (algebra-make-node :multiply x y))
+        ((algebra-scaled-p y)
+         (algebra-program-multiply (algebra-node-left y) (algebra-program-multiply x (algebra-node-right y))))
+        ((algebra-scaled-p x)
+         (algebra-program-multiply (algebra-node-left x) (algebra-program-multiply (algebra-node-right x) y)))
+        ((algebra-in-order-p x y) (algebra-make-node :multiply x y))
         (t (algebra-make-node :multiply y x))))
 
 (defun algebra-program-divide (x y)
@@ -205,7 +214,7 @@
 
 ;;; Which nodes the outputs need.
 
-(defun algebra-parts (node)
+(defun algebra-node-parts (node)
   (remove-if-not #'algebra-node-p
                  (if (eq (algebra-node-operation node) :input)
                      nil
@@ -219,7 +228,7 @@
                (unless (gethash (algebra-node-index node) alive)
                  (setf (gethash (algebra-node-index node) alive) t)
                  (push node found)
-                 (dolist (part (algebra-parts node)) (push part waiting)))))
+                 (dolist (part (algebra-node-parts node)) (push part waiting)))))
     (sort found #'algebra-in-order-p)))
 
 (defun algebra-input-p (node)
@@ -227,3 +236,8 @@
 
 (defun algebra-operation-count (elements)
   (count-if-not #'algebra-input-p (algebra-live-nodes elements)))
+
+(defun algebra-rename-inputs (pairs)
+  "Inputs are written with the right sides of PAIRS, equations, in place of their left sides."
+  (loop for (nil inside outside) in (cdr pairs)
+        do (setf (algebra-node-left (algebra-program-input inside)) outside)))

@@ -1,5 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What the room of forms can compute: from Lagrange's function to equations, for every kind that has one. Data only.
+;;; What the room of forms can compute: from Lagrange's function to equations, for every kind that
+;;; has one. Data only.
 
 (in-package :maxima)
 
@@ -107,3 +108,17 @@
 (core-rule "FirstIntegrals" :any "forms/integrals" "forms_first_integrals"
   "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
   '("nonholonomic" ((mlist simp))) '("form" $auto))
+
+;;; Programs
+
+(core-public "EquationProgram"
+  :forms '(("lagrangian" "Lagrangian" "coordinates"))
+  :options '("rayleigh" "forces" "solved" "inverse")
+  :kinds *forms-kinds*)
+(core-rule "EquationProgram" :any "forms/equation_program" "forms_equation_program"
+  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("solved" nil) '("inverse" nil))
+
+(core-public "ExportProgram"
+  :forms '(("expressions" "program" "file"))
+  :options '("language" "replace"))
+(core-rule "ExportProgram" :any "forms/export_program" "forms_export_program" "program" "file" '("language" $c) '("replace" nil))

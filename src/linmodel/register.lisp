@@ -15,6 +15,9 @@
 (core-public "Lagrangian" :kinds '("mechanical"))
 (core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description" '("form" $auto))
 
+(core-rule "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_equation_program"
+  "description" '("rayleigh" 0) '("forces" ((mlist simp))) '("solved" nil) '("inverse" nil))
+
 ;;; What the forms take beside L: the keys of [system] and what springs, forces, torques and rotors
 ;;; add to them
 
