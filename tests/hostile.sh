@@ -34,8 +34,9 @@ session() {
   (cd "$1" && awk '/^== [0-9]+ *$/ { file = $2; next } file { print >file }' answers)
 }
 
-session clean ''
+session clean '' &
 session hostile "load(\"$here/hostile.mac\")\$"
+wait
 
 check "the sessions reach their end" "$(calls | wc -l) $(grep -c '^== ' hostile/answers)" \
   "$(grep -c '^== ' clean/answers) $(grep -c '^== ' clean/answers)"

@@ -134,3 +134,10 @@
 (core-rule "KelvinChetaev" :any "analysis/forces" "analysis_kelvin_chetaev" "M" "D" "G" "K" "P")
 (loop for part in '("D" "G" "K" "P")
       do (core-rule-field part *analysis-motions* "ForceStructure" part))
+
+;;; Integrals of linear systems
+
+(loop for (name function) in '(("LinearIntegrals" "analysis_linear_integrals")
+                               ("QuadraticIntegrals" "analysis_quadratic_integrals"))
+      do (core-public name :forms '(("matrices" "A" "variables")))
+         (core-rule name :any "analysis/linear_integrals" function "A" "variables"))
