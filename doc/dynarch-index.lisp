@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2899472656 50956
+;;; Made by tools/doc; checksum of doc/*.texi: 2998551327 52197
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -43,10 +43,12 @@
 ("Signature" . ("dynarch.info" 44101 466 "Definitions for Analysis"))
 ("Definite" . ("dynarch.info" 44568 642 "Definitions for Analysis"))
 ("ForceStructure" . ("dynarch.info" 45211 995 "Definitions for Analysis"))
-("KelvinChetaev" . ("dynarch.info" 46207 1727 "Definitions for Analysis"))
-("Stability" . ("dynarch.info" 47935 995 "Definitions for Analysis"))
-("SecondVariation" . ("dynarch.info" 48931 765 "Definitions for Analysis"))
-("RouthLyapunov" . ("dynarch.info" 49697 1390 "Definitions for Analysis"))
+("KelvinChetaev" . ("dynarch.info" 46207 1725 "Definitions for Analysis"))
+("Stability" . ("dynarch.info" 47933 995 "Definitions for Analysis"))
+("SecondVariation" . ("dynarch.info" 48929 765 "Definitions for Analysis"))
+("RouthLyapunov" . ("dynarch.info" 49695 1390 "Definitions for Analysis"))
+("LinearIntegrals" . ("dynarch.info" 51086 654 "Definitions for Analysis"))
+("QuadraticIntegrals" . ("dynarch.info" 51741 592 "Definitions for Analysis"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 795 930))
@@ -55,6 +57,6 @@
 ("Definitions for velocities" . ("dynarch.info" 4006 1723))
 ("Definitions for LinModel" . ("dynarch.info" 5863 20663))
 ("Definitions for Circuits" . ("dynarch.info" 26658 7038))
-("Definitions for Analysis" . ("dynarch.info" 33831 17256))
+("Definitions for Analysis" . ("dynarch.info" 33831 18502))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))
