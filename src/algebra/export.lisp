@@ -25,18 +25,23 @@
   (if (integerp x) (format nil "~d.0" x) (format nil "(~d.0/~d.0)" (numerator x) (denominator x))))
 
 (defun algebra-fortran-number (x)
-  (if (integerp x) (format nil "(~d.0d0)" x) (format nil "(~d.0d0/~d.0d0)" (numerator x) (denominator x))))
+  (if (integerp x)
+      (format nil "(~d.0d0)" x)
+      (format nil "(~d.0d0/~d.0d0)" (numerator x) (denominator x))))
 
 (defun algebra-lisp-number (x)
-  (if (integerp x) (format nil "~d.0d0" x) (format nil "(/ ~d.0d0 ~d.0d0)" (numerator x) (denominator x))))
+  (if (integerp x)
+      (format nil "~d.0d0" x)
+      (format nil "(/ ~d.0d0 ~d.0d0)" (numerator x) (denominator x))))
 
 (defparameter *algebra-infix-formats*
-  '((:add . "~a + ~a") (:subtract . "~a - ~a") (:negate . "-~a") (:multiply . "~a*~a") (:divide . "~a/~a")
-    (:sine . "sin(~a)") (:cosine . "cos(~a)") (:root . "sqrt(~a)")))
+  '((:add . "~a + ~a") (:subtract . "~a - ~a") (:negate . "-~a") (:multiply . "~a*~a")
+    (:divide . "~a/~a") (:sine . "sin(~a)") (:cosine . "cos(~a)") (:root . "sqrt(~a)")))
 
 (defparameter *algebra-lisp-formats*
-  '((:add . "(+ ~a ~a)") (:subtract . "(- ~a ~a)") (:negate . "(- ~a)") (:multiply . "(* ~a ~a)")
-    (:divide . "(/ ~a ~a)") (:sine . "(sin ~a)") (:cosine . "(cos ~a)") (:root . "(sqrt ~a)")))
+  '((:add . "(+ ~a ~a)") (:subtract . "(- ~a ~a)") (:negate . "(- ~a)")
+    (:multiply . "(* ~a ~a)") (:divide . "(/ ~a ~a)")
+    (:sine . "(sin ~a)") (:cosine . "(cos ~a)") (:root . "(sqrt ~a)")))
 
 (defun algebra-lines (&rest lines) (format nil "~{~a~%~}" lines))
 
@@ -53,7 +58,9 @@
                    (algebra-lines "#include <math.h>" ""))
     :begin (lambda (name nx ny nz k)
              (declare (ignore nx ny nz))
-             (algebra-lines (format nil "static void ~a_~d(const double *x, double *y, double *z)" name k) "{"))
+             (algebra-lines (format nil "static void ~a_~d(const double *x, double *y, double *z)"
+                                    name k)
+                            "{"))
     :end (lambda (name k) (declare (ignore name k)) (algebra-lines "}" ""))
     :last-lines (lambda (name nx ny nz parts)
                   (format nil "void ~a(const double x[~d], double y[~d])~%{~%  double z[~d];~%~{~a~}}~%"
@@ -68,7 +75,8 @@
     :begin (lambda (name nx ny nz k)
              (algebra-lines (format nil "subroutine ~a_~d(x, y, z)" name k) "  implicit none"
                             (format nil "  double precision, intent(in) :: x(~d)" (max nx 1))
-                            (format nil "  double precision, intent(inout) :: y(~d), z(~d)" (max ny 1) nz)))
+                            (format nil "  double precision, intent(inout) :: y(~d), z(~d)"
+                                    (max ny 1) nz)))
     :end (lambda (name k) (algebra-lines (format nil "end subroutine ~a_~d" name k) ""))
     :last-lines (lambda (name nx ny nz parts)
                   (algebra-lines
@@ -86,27 +94,32 @@
     :first-lines (lambda (name nx ny nz parts)
                    (declare (ignore name nx ny nz parts))
                    (algebra-lines "from math import cos, sin, sqrt" "" ""))
-    :begin (lambda (name nx ny nz k) (declare (ignore nx ny nz)) (algebra-lines (format nil "def _~a_~d(x, y, z):" name k)))
+    :begin (lambda (name nx ny nz k)
+             (declare (ignore nx ny nz))
+             (algebra-lines (format nil "def _~a_~d(x, y, z):" name k)))
     :end (lambda (name k) (declare (ignore name k)) (algebra-lines "" ""))
     :last-lines (lambda (name nx ny nz parts)
                   (declare (ignore nx))
-                  (format nil "def ~a(x):~%    y = [0.0]*~d~%    z = [0.0]*~d~%~{~a~}    return y~%" name ny nz
+                  (format nil "def ~a(x):~%    y = [0.0]*~d~%    z = [0.0]*~d~%~{~a~}    return y~%"
+                          name ny nz
                           (loop for k in (algebra-part-numbers parts)
                                 collect (format nil "    _~a_~d(x, y, z)~%" name k)))))
    (make-algebra-language
-    :name "lisp" :comment ";;;" :number #'algebra-lisp-number :formats *algebra-lisp-formats*
+    :name "lisp" :comment ";;;" :number #'algebra-lisp-number
+    :formats *algebra-lisp-formats*
     :place (lambda (array k) (format nil "(aref ~a ~d)" array (1- k)))
     :assignment "  (setf ~a ~a)~%"
     :first-lines (lambda (name nx ny nz parts) (declare (ignore name nx ny nz parts)) "")
     :begin (lambda (name nx ny nz k)
              (declare (ignore nx ny nz))
              (algebra-lines (format nil "(defun ~a-~d (x y z)" name k)
-                            "  (declare (type (simple-array double-float (*)) x y z) (ignorable x y z))"))
+                            "  (declare (type (simple-array double-float (*)) x y z)"
+                            "           (ignorable x y z))"))
     :end (lambda (name k) (declare (ignore name k)) (algebra-lines "  nil)" ""))
     :last-lines (lambda (name nx ny nz parts)
                   (declare (ignore nx ny))
-                  (format nil "(defun ~a (x y)~%  (let ((z (make-array ~d :element-type 'double-float)))~%~{~a~}    y))~%"
-                          name nz
+                  (format nil "(defun ~a (x y)~%  (let ((z (make-array ~d ~a)))~%~{~a~}    y))~%"
+                          name nz ":element-type 'double-float"
                           (loop for k in (algebra-part-numbers parts)
                                 collect (format nil "    (~a-~d x y z)~%" name k)))))))
 
@@ -125,7 +138,8 @@
 (defun algebra-exported-operation (language node places)
   (flet ((text (element)
            (let ((text (algebra-exported-text language element places)))
-             (if (and (realp element) (minusp element) (not (string= (algebra-language-name language) "lisp")))
+             (if (and (realp element) (minusp element)
+                      (not (string= (algebra-language-name language) "lisp")))
                  (format nil "(~a)" text)
                  text))))
     (format nil (cdr (assoc (algebra-node-operation node) (algebra-language-formats language)))
@@ -148,7 +162,8 @@
           ((algebra-constant-input-p node)
            (funcall (algebra-language-number language)
                     (rational (algebra-input-value (algebra-node-left node) '() nil))))
-          (t (core-error "~a is not among the inputs of the program" (mfuncall '$string (algebra-node-left node)))))))
+          (t (core-error "~a is not among the inputs of the program"
+                         (mfuncall '$string (algebra-node-left node)))))))
 
 (defun algebra-exported-assignments (language computed elements places)
   "The lines of all assignments, those of the outputs last."
@@ -176,11 +191,16 @@
 (defun algebra-write-head (stream language name inputs outputs operations)
   (flet ((line (format &rest arguments)
            (format stream "~a ~?~%" (algebra-language-comment language) format arguments)))
-    (line "dynarch: program ~a, ~d operations; made by ExportProgram, replaced when it is made anew." name operations)
+    (line "dynarch: program ~a, ~d operations; made by ExportProgram, replaced when it is made anew."
+          name operations)
     (line "Inputs:")
-    (loop for input in inputs for k from 1 do (line "  x~d = ~a" k (algebra-plain-text input)))
+    (loop for input in inputs
+          for k from 1
+          do (line "  x~d = ~a" k (algebra-plain-text input)))
     (line "Outputs:")
-    (loop for output in (algebra-output-names outputs) for k from 1 do (line "  y~d = ~a" k output))
+    (loop for output in (algebra-output-names outputs)
+          for k from 1
+          do (line "  y~d = ~a" k output))
     (format stream "~%")))
 
 (defun algebra-write-program (stream language name inputs outputs)
@@ -206,12 +226,14 @@
 
 ;;; Files.
 
+(defun algebra-routine-character (c)
+  (if (or (char<= #\a c #\z) (char<= #\A c #\Z) (digit-char-p c)) (char-downcase c) #\_))
+
 (defun algebra-routine-name (file)
   "The name of FILE without folder and type, as a routine may be called."
   (let* ((start (1+ (or (position #\/ file :from-end t) -1)))
          (end (position #\. file :start start))
-         (name (map 'string (lambda (c) (if (or (alpha-char-p c) (digit-char-p c)) (char-downcase c) #\_))
-                    (subseq file start end))))
+         (name (map 'string #'algebra-routine-character (subseq file start end))))
     (if (and (plusp (length name)) (alpha-char-p (char name 0)))
         (subseq name 0 (min 50 (length name)))
         (concatenate 'string "program_" (subseq name 0 (min 40 (length name)))))))
@@ -237,12 +259,14 @@
 
 (defun $algebra_export (record file language replace)
   "Writes RECORD to FILE and returns the name of the file."
-  (unless (stringp file) (core-error "the second argument is the name of a file, found ~a" (mfuncall '$string file)))
+  (unless (stringp file)
+    (core-error "the second argument is the name of a file, found ~a" (mfuncall '$string file)))
   (algebra-check-new-file file replace)
   (let ((language (algebra-language-named language)))
     (with-algebra-program
       (destructuring-bind (inputs outputs) (algebra-read-program record)
-        (algebra-write-file file (lambda (stream)
-                                   (algebra-write-program stream language (algebra-routine-name file)
-                                                          inputs outputs))))))
+        (algebra-write-file
+         file
+         (lambda (stream)
+           (algebra-write-program stream language (algebra-routine-name file) inputs outputs))))))
   file)

@@ -29,7 +29,7 @@
          (computed (remove-if #'algebra-input-p nodes))
          (parameters (sort (remove-if (lambda (e) (member e inputs :test #'alike1))
                                       (mapcar #'algebra-node-left used))
-                           #'great-after-p))
+                           #'algebra-name-before-p))
          (all (append inputs parameters))
          (names (algebra-node-names nodes computed (algebra-free-stem all))))
     (flet ((written (element) (algebra-written-element element names)))
@@ -45,7 +45,7 @@
                                   collect (algebra-field name (algebra-written-output value #'written)))))
        (algebra-field '$operations (length computed))))))
 
-(defun great-after-p (a b) (and (great b a) t))
+(defun algebra-name-before-p (a b) (and (great b a) t))
 
 (defun algebra-list (&rest elements) (cons '(mlist simp) elements))
 (defun algebra-field (name value) (list '(mequal simp) name value))
