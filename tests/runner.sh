@@ -53,6 +53,7 @@ ends_badly rtest_nothing.mac sbcl 0 "it holds no test"
 ends_badly sh_crashes.sh sh 0 "it ended with exit status 139"
 ends_badly sh_silent.sh sh 0 "there is no summary at its end: it stopped before"
 ends_badly sh_hangs.sh sh 1 "it did not end within 10 s"
+ends_badly sh_ignores.sh sh 1 "it did not end within 10 s"
 
 run_tests "$here/runner" no_such_suite
 check "a missing file fails" "$status $(printf '%s\n' "$log" | tail -n 1)" "1 0 passed, 1 failed"
