@@ -38,11 +38,13 @@
        (algebra-field '$assignments
                       (cons '(mlist simp)
                             (loop for node in computed
-                                  collect (algebra-field (written node) (algebra-written-node node #'written)))))
+                                  collect (algebra-field (written node)
+                                                         (algebra-written-node node #'written)))))
        (algebra-field '$outputs
                       (cons '(mlist simp)
                             (loop for (name . value) in outputs
-                                  collect (algebra-field name (algebra-written-output value #'written)))))
+                                  collect (algebra-field
+                                           name (algebra-written-output value #'written)))))
        (algebra-field '$operations (length computed))))))
 
 (defun algebra-name-before-p (a b) (and (great b a) t))
@@ -102,7 +104,9 @@
 
 (defun algebra-record-part (record key)
   (or (and ($listp record)
-           (third (find-if (lambda (e) (and (consp e) (eq (caar e) 'mequal) (eq (second e) key))) (cdr record))))
+           (third (find-if (lambda (e)
+                             (and (consp e) (eq (caar e) 'mequal) (eq (second e) key)))
+                           (cdr record))))
       (core-error "a program is a record with inputs, assignments, outputs and operations; ~a is missing"
                   (core-spelling key))))
 
@@ -140,7 +144,8 @@
   (loop for equation in (cdr equations)
         collect (cons (second equation)
                       (or (algebra-rational-number (third equation))
-                          (core-error "a value is a number, found ~a" (mfuncall '$string (third equation)))))))
+                          (core-error "a value is a number, found ~a"
+                                      (mfuncall '$string (third equation)))))))
 
 (defun algebra-evaluated-program (record point exactly)
   (with-algebra-program

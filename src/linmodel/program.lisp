@@ -109,7 +109,8 @@
     (loop for k from 1 below (length joints)
           for joint = (aref joints k)
           do (setf (aref motions k)
-                   (linmodel-joint-motion a joint (aref motions (linmodel-joint-parent joint)) state)))
+                   (linmodel-joint-motion
+                    a joint (aref motions (linmodel-joint-parent joint)) state)))
     motions))
 
 ;;; Inwards. A load is (N . F).
@@ -124,7 +125,9 @@
              (force (linmodel-vector-times
                      a m (plus acceleration (plus (cross e c) (cross w (cross w c))))))
              (spin (plus (tensor-times tensor w) (or (linmodel-body-momentum body) (list 0 0 0))))
-             (arm (if about-joint (linmodel-vector-times a m (cross c acceleration)) (cross c force))))
+             (arm (if about-joint
+                      (linmodel-vector-times a m (cross c acceleration))
+                      (cross c force))))
         (cons (plus (plus (tensor-times tensor e) (cross w spin)) arm) force)))))
 
 (defun linmodel-vector-times (a x vector)
@@ -173,6 +176,6 @@
     (cdr (coerce forces 'list))))
 
 (defun linmodel-bias-forces (a joints state gravity n)
-  "M q'' minus the forces of the constant field and of inertia: the forces for the accelerations of STATE."
+  "The forces for the accelerations of STATE: M q'' minus those of the field and of inertia."
   (linmodel-forces-of-loads
    a joints (linmodel-bias-loads a joints (linmodel-motions a joints state gravity)) n))

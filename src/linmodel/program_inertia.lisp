@@ -261,8 +261,8 @@ accelerations (inverse: PAIRS then has these, too). ACTIONS: [U, R, [Q_1, ..]]."
              (state (make-linmodel-state
                      :velocities velocities
                      :accelerations (if inverse
-                                        (mapcar (lambda (pair) (algebra-program-input (second pair)))
-                                                (nthcdr n (cdr pairs)))
+                                        (loop for (nil inside) in (nthcdr n (cdr pairs))
+                                              collect (algebra-program-input inside))
                                         (loop repeat n collect 0))
                      :rates (acons (algebra-program-input '$t) 1 (mapcar #'cons places velocities)))))
         (forms-program-record
@@ -277,7 +277,8 @@ accelerations (inverse: PAIRS then has these, too). ACTIONS: [U, R, [Q_1, ..]]."
                         (cons :list (linmodel-solved a joints state gravity given n)))))
            ($mass
             (list (cons '|$m| (cons :matrix (linmodel-mass-rows a joints n)))
-                  (cons '$f (cons :list (linmodel-right-sides a joints state gravity given n)))))))))))
+                  (cons '$f
+                        (cons :list (linmodel-right-sides a joints state gravity given n)))))))))))
 
 (defun linmodel-right-sides (a joints state gravity given n)
   (mapcar #'algebra-program-subtract given (linmodel-bias-forces a joints state gravity n)))
