@@ -138,7 +138,10 @@ if [ "$(id -u)" != 0 ]; then
   chmod u+w folder
   chmod a-w folder/a.txt
   read_only "a read-only file"
-  chmod u+w folder/a.txt
+  chmod 0 folder/a.txt
+  maxima 'Lagrangian("folder/a.txt")$'
+  check "a file that may not be read" "$(grep -c '^Lagrangian: folder/a.txt cannot be read: ' log)" 1
+  chmod 640 folder/a.txt
 elif chattr +i folder 2>/dev/null; then
   read_only "a folder that cannot be changed"
   chattr -i folder
