@@ -24,3 +24,17 @@
   (cons '(mlist simp)
         (loop for public being the hash-keys of *core-publics*
               unless (fboundp (core-symbol public)) collect public)))
+
+(defun register-lines (name)
+  (with-open-file (in (core-pathname name)) (loop for line = (read-line in nil) while line collect line)))
+
+(defun $register_texts_loaded ()
+  "Maxima files of the parts that use a function of the share package stringproc."
+  (cons '(mlist simp)
+        (loop for room in '("forms" "linmodel" "circuits" "analysis")
+              append (loop for file in (directory (merge-pathnames "*.mac" (core-pathname (format nil "~asrc/~a/" *core-root* room))))
+                           when (some (lambda (line)
+                                        (some (lambda (word) (search word line))
+                                              '("stringp(" "simplode(" "charat(" "substring(" "ssearch(" "slength(")))
+                                      (register-lines (namestring file)))
+                             collect (pathname-name file)))))
