@@ -76,6 +76,11 @@ expect 'a file is not replaced without yes' $?
 grep -q 'coordinates = \[phi, theta\]' mechanical.txt
 expect 'a file is replaced after yes' $?
 
+# an item passed over is given by its key; what the function itself finds is said before the file is written
+{ pendulum; printf 'force_function\nk*theta\nbody 1: axes\n[3, 1, 2]\n8\n[3, 1]\n\nadded.txt\n'; } | ask 'Lagrangian()'
+grep -q 'force_function = k\*theta' added.txt && grep -q 'axes has 3 numbers' answer && grep -q '^axes = \[3, 1\]' added.txt
+expect 'an item is added by its key, and the description is tried before it is written' $?
+
 circuit() {
   cat <<'END'
 [L1 > 0, C1 > 0, R1 > 0]

@@ -9,6 +9,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/keys" "archive/check" "archive/store"))
 
+(defvar *archive-asked* '() "The questions asked in this dialog.")
 (defvar *archive-fresh-input* nil
   "True until the first line is read: what is left of the line that called us is passed over.")
 
@@ -20,14 +21,47 @@
   #+sbcl *standard-input*
   #-sbcl *query-io*)
 
+(defun archive-prompt (question)
+  "QUESTION as Maxima's own read() prints it, so that a worksheet shows it as a prompt."
+  (format-prompt nil "~a"
+                 (string-right-trim '(#\Newline #\Space)
+                                    (with-output-to-string (*standard-output*) (mfuncall '$print question)))))
+
+(defun archive-numbered-question (question)
+  "QUESTION, numbered when it is asked again: worksheets fill in the old answer to a question of the same text."
+  (push question *archive-asked*)
+  (let ((times (count question *archive-asked* :test #'string=)))
+    (if (= times 1) question (format nil "(~d) ~a" times question))))
+
 (defun archive-ask-line (question)
   "The person's answer to QUESTION, without blanks around it and without a closing semicolon."
-  (format-prompt t "~a" (concatenate 'string question (string #\Newline)))
+  (fresh-line)
+  (write-string (archive-prompt (archive-numbered-question question)))
+  (terpri)
   (finish-output)
   (let ((line (archive-read-line)))
     (when (null line)
       (core-error "the input ended before the description was complete; nothing was written"))
     (archive-trimmed-answer line)))
+
+(defun archive-filled (text)
+  "TEXT on lines of less than 79 letters, broken at blanks; the lines it has already stay."
+  (with-output-to-string (out)
+    (let ((column 0))
+      (loop for start = 0 then (1+ end)
+            for end = (position-if (lambda (c) (member c '(#\Space #\Newline))) text :start start)
+            for word = (subseq text start end)
+            for newline = (and (> start 0) (char= (char text (1- start)) #\Newline))
+            do (cond ((= start 0))
+                     (newline (terpri out) (setq column 0))
+                     ((> (+ column 1 (length word)) 78) (format out "~%    ") (setq column 4))
+                     (t (write-char #\Space out) (incf column)))
+               (write-string word out)
+               (incf column (length word))
+            while end))))
+
+(defun archive-say (control &rest arguments)
+  (core-say (archive-filled (apply #'format nil control arguments))))
 
 (defun archive-read-line ()
   (let ((line (read-line (archive-input-stream) nil nil)))
@@ -54,8 +88,8 @@
                 (t " [Enter: none]"))))
 
 (defun archive-explain (key)
-  (core-say (format nil "  ~a: ~a. Type ~a.~@[ Enter takes ~a.~]" (archive-key-name key) (archive-key-help key)
-                    (archive-type-phrase (archive-key-type key)) (archive-default key))))
+  (archive-say "  ~a: ~a. Type ~a.~@[ Enter takes ~a.~]" (archive-key-name key) (archive-key-help key)
+                    (archive-type-phrase (archive-key-type key)) (archive-default key)))
 
 (defun archive-quoted-text (text)
   "TEXT as a string of the archive, if it is not one yet."
@@ -73,10 +107,10 @@ that follow."
       (cond ((string= answer "?") (archive-explain key))
             ((and (string= answer ".") (not required)) (return :rest))
             ((and (member answer '("" ".") :test #'string=) required)
-             (core-say (format nil "  ~a is needed: ~a." (archive-key-name key) (archive-type-phrase (archive-key-type key)))))
+             (archive-say "  ~a is needed: ~a." (archive-key-name key) (archive-type-phrase (archive-key-type key))))
             ((string= answer "") (return nil))
             (t (let ((trouble (archive-value-trouble key text)))
-                 (if trouble (core-say (format nil "  ~a" trouble)) (return text))))))))
+                 (if trouble (archive-say "  ~a" trouble) (return text))))))))
 
 ;;; Sections
 
@@ -111,7 +145,7 @@ that follow."
     (let ((answer (archive-ask-line question)))
       (cond ((string= answer "") (return 0))
             ((and (every #'digit-char-p answer) (< (length answer) 4)) (return (parse-integer answer)))
-            (t (core-say "  Type a number, such as 0, 1 or 2."))))))
+            (t (archive-say "  Type a number, such as 0, 1 or 2."))))))
 
 (defun archive-ask-names (question)
   "Names, one after another, until an empty answer."
@@ -119,7 +153,7 @@ that follow."
 
 (defun archive-ask-rows (section)
   "The rows of SECTION, one a line, until an empty answer."
-  (core-say (format nil "  [~a]: one row a line, ~a; Enter ends." section (fourth (archive-section-row section))))
+  (archive-say "  [~a]: one row a line, ~a; Enter ends." section (fourth (archive-section-row section)))
   (loop for n from 1
         for row = (archive-ask-good-row section n)
         until (string= row "")
@@ -129,8 +163,8 @@ that follow."
   (loop
     (let* ((row (archive-ask-line (format nil "~a: row ~d [Enter: no more]" section n)))
            (trouble (and (string/= row "") (string/= row "?") (archive-row-trouble section row))))
-      (cond ((string= row "?") (core-say (format nil "  ~a" (fourth (archive-section-row section)))))
-            (trouble (core-say (format nil "  ~a" trouble)))
+      (cond ((string= row "?") (archive-say "  ~a" (fourth (archive-section-row section))))
+            (trouble (archive-say "  ~a" trouble))
             (t (return row))))))
 
 (defun archive-section-names (row answers)
@@ -167,73 +201,4 @@ that follow."
       (loop
         (let ((answer (archive-ask-line (format nil "Kind of system (~{~a~^, ~})" kinds))))
           (when (member answer kinds :test #'string=) (return answer))
-          (core-say (format nil "  Type one of ~{~a~^, ~}." kinds))))))
-
-;;; The end: echo, changes, file
-
-(defun archive-text-of-answers (kind answers)
-  (with-output-to-string (out)
-    (format out "dynarch = 1~%kind = ~a~%" kind)
-    (let ((section "top"))
-      (dolist (answer answers)
-        (unless (equal section (archive-item-section answer))
-          (setq section (archive-item-section answer))
-          (format out "~%[~a]~%" section))
-        (format out "~@[~a = ~]~a~%" (and (archive-item-key answer) (archive-key-name (archive-item-key answer)))
-                (archive-item-text answer))))))
-
-(defun archive-echo (answers)
-  (core-say "The description:")
-  (loop for answer in answers for n from 1
-        do (core-say (format nil "~3d  ~@[~a: ~]~@[~a = ~]~a" n
-                             (and (string/= (archive-item-section answer) "top") (archive-item-section answer))
-                             (and (archive-item-key answer) (archive-key-name (archive-item-key answer)))
-                             (archive-item-text answer)))))
-
-(defun archive-change-answer (answer)
-  (let ((key (archive-item-key answer)))
-    (setf (archive-item-text answer)
-          (if key
-              (or (archive-required-text key (archive-item-section answer)) (archive-item-text answer))
-              (archive-ask-good-row (archive-item-section answer) 1)))))
-
-(defun archive-required-text (key section)
-  (let ((text (archive-ask-key key section nil)))
-    (if (eq text :rest) nil text)))
-
-(defun archive-ask-changes (kind answers)
-  "Shows the description until the person is content and it passes all checks; returns its text."
-  (loop
-    (archive-echo answers)
-    (let* ((text (archive-text-of-answers kind answers))
-           (trouble (archive-text-trouble text))
-           (answer (progn
-                     (when trouble (core-say (format nil "  ~a" trouble)))
-                     (archive-ask-line "Number of the item to change [Enter: all is right]")))
-           (number (and (plusp (length answer)) (every #'digit-char-p answer) (< (length answer) 5) (parse-integer answer))))
-      (cond ((and (string= answer "") (not trouble)) (return text))
-            ((and number (<= 1 number (length answers))) (archive-change-answer (nth (1- number) answers)))
-            (t (core-say (format nil "  Type a number from 1 to ~d." (length answers))))))))
-
-(defun archive-ask-file (kind)
-  "The file to write; one that is there is replaced only after `yes'."
-  (loop
-    (let* ((answer (archive-ask-line (format nil "File [~a.txt]" kind)))
-           (file (if (string= answer "") (format nil "~a.txt" kind) (string-trim "\"" answer))))
-      (when (or (not (core-existing-file file))
-                (archive-yes-p (format nil "~a exists; replace it? (yes or no)" file)))
-        (return file)))))
-
-(defun archive-dialog (name kinds)
-  "Asks for the description of a system of one of KINDS for the function NAME; returns the path of
-the archive written."
-  (let ((*archive-fresh-input* (null $load_pathname)))
-    (core-say (format nil "~a: description of a system. ? explains a question, Enter takes the answer in [ ], . takes them all to the end of a section."
-                      name))
-    (let* ((kind (archive-ask-kind kinds))
-           (sections (archive-ask-sections kind))
-           (text (archive-ask-changes kind (append (archive-ask-title kind) sections)))
-           (file (archive-ask-file kind)))
-      (archive-write-new file text)
-      (core-say (format nil "The description is in ~a. The same again without questions:~%~a(\"~a\");" file name file))
-      file)))
+          (archive-say "  Type one of ~{~a~^, ~}." kinds)))))

@@ -27,18 +27,30 @@
             (t (archive-call-expressions public positional options))))))
 
 (defun archive-ask (public options)
-  "The dialog, which ends in a path or a description; then the call on it."
-  (core-require "archive/dialog")
-  (let ((system (funcall 'archive-dialog (core-public-name public) (core-public-kinds public))))
-    (archive-call-system public (list system) options)))
+  "The dialog, which ends in a path; then the call on it."
+  (core-require "archive/dialog_end")
+  (let ((path (funcall 'archive-dialog (core-public-name public) (core-public-kinds public)
+                       (lambda (text) (archive-trial-trouble public text options)))))
+    (archive-call-system public (list path) options)))
+
+(defun archive-trial-trouble (public text options)
+  "What is wrong with the archive TEXT when PUBLIC is called on it, or nil; nothing is saved."
+  (archive-trouble
+   (lambda ()
+     (let ((archive (archive-of-text "the description" text)))
+       (setf (archive-path archive) nil)
+       (archive-run (archive-call-on public archive '() options))))))
 
 (defun archive-call-system (public positional options)
-  (let* ((archive (archive-open-system (car positional)))
-         (call (archive-new-call public archive (archive-kind archive))))
-    (archive-give-trailing call (cdr positional))
+  (archive-run (archive-call-on public (archive-open-system (car positional)) (cdr positional) options)))
+
+(defun archive-call-on (public archive trailing options)
+  "The call of PUBLIC on ARCHIVE with what follows the system."
+  (let ((call (archive-new-call public archive (archive-kind archive))))
+    (archive-give-trailing call trailing)
     (archive-give-options call options)
     (setq *core-place* (lambda (section key) (archive-place archive section key)))
-    (archive-run call)))
+    call))
 
 (defun archive-call-expressions (public positional options)
   (let* ((form (archive-matching-form public positional))
