@@ -5,10 +5,10 @@
 
 (in-package :maxima)
 
-(defparameter *analysis-motions* '("mechanical"
-  "lagrangian") "Kinds whose equations are of second order.")
-(defparameter *analysis-states* '("circuit"
-  "equations") "Kinds whose equations are of first order.")
+(defparameter *analysis-motions* '("mechanical" "lagrangian")
+  "Kinds whose equations are of second order.")
+(defparameter *analysis-states* '("circuit" "equations" "poisson")
+  "Kinds whose equations are of first order.")
 (defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
 (defparameter *analysis-none* '((mlist simp)))
 (defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
@@ -22,6 +22,9 @@
 
 (core-rule-same-as "state_equations" '("circuit") "StateEquations")
 (core-rule-same-as "state_equations" '("equations") "equations")
+(core-rule-same-as "state_equations" '("poisson") "poisson_equations")
+(core-rule-same-as "known_integrals" '("equations") "integrals")
+(core-rule-same-as "known_integrals" '("poisson") "poisson_integrals")
 
 ;;; Stationary sets
 
@@ -106,9 +109,9 @@
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers") :kinds '("equations"))
-(core-rule "RouthLyapunov" '("equations") "analysis/routh_lyapunov" "analysis_routh_lyapunov"
-  "equations" "integrals" "variables" *analysis-unknowns* *analysis-where* *analysis-laws*
+  :options '("where" "unknowns" "multipliers") :kinds '("equations" "poisson"))
+(core-rule "RouthLyapunov" '("equations" "poisson") "analysis/routh_lyapunov" "analysis_routh_lyapunov"
+  "state_equations" "known_integrals" "variables" *analysis-unknowns* *analysis-where* *analysis-laws*
   (list "multipliers" *analysis-none*))
 
 ;;; Matrices and forms

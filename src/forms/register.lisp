@@ -122,3 +122,10 @@
   :forms '(("expressions" "program" "file"))
   :options '("language" "replace"))
 (core-rule "ExportProgram" :any "forms/export_program" "forms_export_program" "program" "file" '("language" $c) '("replace" nil))
+
+;;; Poisson
+
+(core-rule "poisson_equations" '("poisson") "forms/poisson" "forms_poisson_equations"
+  "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))) "hamiltonian")
+(core-rule "poisson_integrals" '("poisson") "forms/poisson" "forms_poisson_integrals"
+  "hamiltonian" '("integrals" ((mlist simp))))
