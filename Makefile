@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # tools/demo and tools/test need no make; these are their short names, and what is not run each time.
 
-.PHONY: demo test bench fuzz test-maxima doc
+.PHONY: demo test bench bench-peers fuzz test-maxima doc
 
 demo:
 	@tools/demo
@@ -12,6 +12,10 @@ test:
 # Times of the examples and of a start with the packages loaded.
 bench:
 	@bench/run
+
+# Chains by SymPy, symengine, CasADi (by pip into the user's cache) and by us, side by side. Under ten minutes.
+bench-peers:
+	@bench/peers/run
 
 # A hundred thousand damaged archives, of which the tests run a thousand.
 fuzz:
