@@ -5,7 +5,7 @@ set output results."/bench.png"
 set logscale y
 set format y "10^{%T}"
 set grid
-set key left top
+set key outside below
 set xlabel "n"
 set ylabel "seconds of CPU"
 peers = "sympy_lagrange sympy_kane symengine_lagrange linmodel_factored linmodel_canonical casadi_program linmodel_program"
@@ -13,7 +13,7 @@ names = "LagrangesMethod KanesMethod symengine factored canonical CasADi program
 set multiplot layout 1,2
 do for [system in "planar spatial"] {
   set title system." chain"
-  set xtics (system eq "planar" ? 2 : 1)
+  set xtics 0, 1 + (system eq "planar")
   plot for [i = 1:words(peers)] results."/".word(peers, i).".".system using 1:2 with linespoints title word(names, i)
 }
 unset multiplot

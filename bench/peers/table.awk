@@ -4,17 +4,17 @@
 function seconds(p, s, n) { return time[p, s, n] == "" ? "" : time[p, s, n] }
 function number(t) { sub(/^>/, "", t); return t + 0 }
 
-# how many times slower p is than o; ">" where p was stopped; 0 for unknown
+# seconds of p over those of o; ">" where p was stopped; 0 for unknown
 function ratio(p, o, s, n) {
   if (!((p, s, n) in time) || number(time[o, s, n]) == 0 || time[o, s, n] ~ />/) return 0
   return number(time[p, s, n]) / number(time[o, s, n])
 }
 function shown(p, o, s, n,   r) {
   r = ratio(p, o, s, n)
-  return r == 0 ? "" : sprintf("%s%.*f", time[p, s, n] ~ />/ ? ">" : "", r < 10 ? 1 : 0, r)
+  return r == 0 ? "" : sprintf("%s%.*f", time[p, s, n] ~ />/ ? ">" : "", r < 1 ? 3 : r < 10 ? 1 : 0, r)
 }
 
-function table(title, system, columns, cell,   i, n, row, some, names, count) {
+function table(title, chain, columns, cell,   i, n, row, some, names, count) {
   count = split(columns, names, " ")
   printf "\n## %s\n\n| n |", title
   for (i = 1; i <= count; i++) printf " %s |", label(names[i])
@@ -23,7 +23,7 @@ function table(title, system, columns, cell,   i, n, row, some, names, count) {
   print ""
   for (n = 1; n <= 100; n++) {
     row = ""; some = 0
-    for (i = 1; i <= count; i++) { row = row " " value(cell, names[i], system, n) " |"; some += value(cell, names[i], system, n) != "" }
+    for (i = 1; i <= count; i++) { row = row " " value(cell, names[i], chain, n) " |"; some += value(cell, names[i], chain, n) != "" }
     if (some) printf "| %d |%s\n", n, row
   }
 }
