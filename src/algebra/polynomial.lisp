@@ -54,6 +54,13 @@
                   collect (algebra-expanded-reduced
                            (cons minor (pexpt denominator power))))))))
 
+(defun $algebra_short_hurwitz_minors (coefficients limit)
+  "The same, or false where a product is predicted to have more than LIMIT terms."
+  (let ((minors (catch 'algebra-too-large
+                  (let ((*algebra-may-give-up* t) (*algebra-limit* limit))
+                    ($algebra_hurwitz_minors coefficients)))))
+    (if (eq minors 'too-large) nil minors)))
+
 (defun algebra-hurwitz-polynomials (coefficients)
   (or (and (<= (length (algebra-ring-kernels *algebra-ring*)) 2)
            (notany #'algebra-pair-p (algebra-ring-units *algebra-ring*))
