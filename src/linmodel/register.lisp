@@ -18,6 +18,12 @@
 (core-rule "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_equation_program"
   "description" '("rayleigh" 0) '("forces" ((mlist simp))) '("solved" nil) '("inverse" nil))
 
+;;; Equations in quasi-velocities
+
+(core-public "EulerPoisson" :kinds '("mechanical"))
+(core-rule "EulerPoisson" '("mechanical") "linmodel/euler_poisson" "linmodel_euler_poisson"
+  "description" '("form" $auto))
+
 ;;; What the forms take beside L: the keys of [system] and what springs, forces, torques and rotors
 ;;; add to them
 
