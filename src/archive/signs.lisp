@@ -16,8 +16,8 @@
         (t '$pos)))
 
 (defun archive-plain-sign (e)
-  "The sign of E as its numbers show it: $pos, $neg, $zero, $pz, $complex, or $pnz where they
-show nothing."
+  "The sign of E as its numbers show it: $pos, $neg, $zero, $pz, $complex where E may leave the
+reals, or $pnz where they show nothing."
   (cond ((mnump e) (archive-number-sign e))
         ((member e '($%pi $%e $inf)) '$pos)
         ((eq e '$%i) '$complex)
@@ -26,6 +26,8 @@ show nothing."
              (mexpt (archive-power-sign (cadr e) (caddr e)))
              (mtimes (archive-product-sign (cdr e)))
              (mabs '$pz)
+             (%log (if (eq (archive-plain-sign (cadr e)) '$pos) '$pnz '$complex))
+             ((%asin %acos) '$complex)
              (t '$pnz)))))
 
 (defun archive-power-sign (base exponent)
