@@ -251,7 +251,6 @@ accelerations (inverse: PAIRS then has these, too). ACTIONS: [U, R, [Q_1, ..]]."
     (with-algebra-program
       (let* ((a (linmodel-program-arithmetic))
              (n (length (cdr q)))
-             (joints (linmodel-read-joints a links bodies n))
              (places (mapcar #'algebra-program-input (cdr q)))
              (velocities (mapcar #'algebra-program-input (cdr v)))
              (given (linmodel-given-forces (second actions) (third actions) (fourth actions)
@@ -259,12 +258,13 @@ accelerations (inverse: PAIRS then has these, too). ACTIONS: [U, R, [Q_1, ..]]."
              (gravity (linmodel-lift-vector a gravity))
              (inverse (eq result '$inverse))
              (state (make-linmodel-state
+                     :names (cdr q)
                      :velocities velocities
                      :accelerations (if inverse
                                         (loop for (nil inside) in (nthcdr n (cdr pairs))
                                               collect (algebra-program-input inside))
-                                        (loop repeat n collect 0))
-                     :rates (acons (algebra-program-input '$t) 1 (mapcar #'cons places velocities)))))
+                                        (loop repeat n collect 0))))
+             (joints (linmodel-read-joints a links bodies state)))
         (forms-program-record
          q pairs
          (ecase result

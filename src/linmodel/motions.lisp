@@ -1,0 +1,152 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Accelerations and loads in any arithmetic. Outwards each link has its angular velocity w and its
+;;; accelerations e and a (of O_k; -g at rest stands for a constant field), all in its own axes; the
+;;; load (N . F) that gives a body these, N about O_k, is
+;;;     F = m (a + e x c + w x (w x c)),   N = Theta e + w x (Theta w + h) + m c x a.
+;;; With the accelerations q_i'' put to 0 these are the bias accelerations. See linmodel-motions first.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "linmodel/inertia" "linmodel/rates"))
+
+;;; The state of motion: the names of the coordinates, their velocities and accelerations as elements.
+
+(defstruct linmodel-state names velocities accelerations)
+
+(defun linmodel-row-sum (a row factors)
+  (let ((sum 0))
+    (mapc (lambda (x y) (setq sum (linmodel-plus a sum (linmodel-times a x y)))) row factors)
+    sum))
+
+(defun linmodel-row-velocity (a row state)
+  (linmodel-plus a (first row) (linmodel-row-sum a (rest row) (linmodel-state-velocities state))))
+
+(defun linmodel-drift (a e state)
+  "The rate of the expression E in coordinates and time."
+  (linmodel-row-velocity
+   a
+   (linmodel-lift-vector a ($linmodel_rate_row e (cons '(mlist) (linmodel-state-names state))))
+   state))
+
+(defun linmodel-row-drift (a row state)
+  "The rate of c_0 + sum c_i q_i', ROWs being of expressions, without the accelerations."
+  (let ((sum 0))
+    (loop for c in (cdr row)
+          for v in (cons (linmodel-lift a 1) (linmodel-state-velocities state))
+          unless (mnump c)
+            do (setq sum (linmodel-plus a sum (linmodel-times a (linmodel-drift a c state) v))))
+    sum))
+
+;;; A link with all that the recursion asks of it, read once.
+
+(defstruct linmodel-joint parent turns drifts back place rows row-drifts twists bodies)
+
+(defun linmodel-read-joint (a link k bodies state)
+  (flet ((drifts (rows) (mapcar (lambda (row) (linmodel-row-drift a row state)) rows)))
+    (let ((turns (linmodel-link-turns a link)))
+      (make-linmodel-joint
+       :parent (linmodel-link-parent link)
+       :turns turns
+       :drifts (drifts (mapcar #'fourth (cdr (fourth link))))
+       :back (mapcar (lambda (turn) (linmodel-back-turn a turn)) (reverse turns))
+       :place (linmodel-link-joint a link)
+       :rows (linmodel-link-rows a link)
+       :row-drifts (drifts (cdr (sixth link)))
+       :twists (linmodel-own-twists a link turns (length (linmodel-state-names state)))
+       :bodies (remove k bodies :key #'linmodel-body-link :test-not #'eql)))))
+
+(defun linmodel-back-turn (a turn)
+  (make-linmodel-turn :axis (linmodel-turn-axis turn)
+                      :sine (linmodel-minus a (linmodel-turn-sine turn))
+                      :cosine (linmodel-turn-cosine turn)))
+
+(defun linmodel-own-twists (a link turns n)
+  "The list of (i w . v), i from 1 to N, of LINK on a parent at rest."
+  (let ((place (linmodel-link-joint a link)) (rows (linmodel-link-rows a link)))
+    (loop for i from 1 to n
+          when (some (lambda (row) (not (eql 0 (nth i row))))
+                     (append rows (mapcar #'linmodel-turn-row turns)))
+            collect (cons i (linmodel-carried-twist a i (linmodel-twist-of i '()) turns place rows)))))
+
+(defun linmodel-read-bodies (a bodies)
+  (mapcar (lambda (body) (linmodel-read-body a body)) (cdr bodies)))
+
+(defun linmodel-read-joints (a links bodies state)
+  "The vector of the joints, the first place left empty."
+  (let ((bodies (linmodel-read-bodies a bodies)))
+    (coerce (cons nil (loop for link in (cdr links)
+                            for k from 1
+                            collect (linmodel-read-joint a link k bodies state)))
+            'vector)))
+
+;;; Outwards.
+
+(defun linmodel-row-acceleration (a row drift state)
+  (linmodel-plus a (linmodel-row-sum a (rest row) (linmodel-state-accelerations state)) drift))
+
+(defun linmodel-joint-motion (a joint motion state)
+  "From the parent's (w e a) that of JOINT's link."
+  (destructuring-bind (w e acceleration) motion
+    (flet ((plus (u v) (linmodel-vector-plus a u v)) (cross (u v) (linmodel-cross a u v)))
+      (let* ((place (linmodel-joint-place joint))
+             (rows (linmodel-joint-rows joint))
+             (u (mapcar (lambda (row) (linmodel-row-velocity a row state)) rows))
+             (du (mapcar (lambda (row drift) (linmodel-row-acceleration a row drift state))
+                         rows (linmodel-joint-row-drifts joint)))
+             (inner (plus (cross w place) (plus u u))))
+        (setq acceleration (plus (plus acceleration du) (plus (cross e place) (cross w inner))))
+        (loop for turn in (linmodel-joint-turns joint)
+              for drift in (linmodel-joint-drifts joint)
+              do (setq acceleration (linmodel-turned a turn acceleration))
+                 (multiple-value-setq (w e) (linmodel-turned-motion a turn drift w e state)))
+        (list w e acceleration)))))
+
+(defun linmodel-turned-motion (a turn drift w e state)
+  "W and E in the axes of TURN, its own rate and acceleration added."
+  (let* ((row (linmodel-turn-row turn))
+         (w (linmodel-turned a turn w))
+         (rate (linmodel-along turn (linmodel-row-velocity a row state)))
+         (change (linmodel-along turn (linmodel-row-acceleration a row drift state))))
+    (values (linmodel-vector-plus a w rate)
+            (linmodel-vector-plus
+             a (linmodel-vector-plus a (linmodel-turned a turn e) (linmodel-cross a w rate))
+             change))))
+
+(defun linmodel-along (turn x)
+  "The vector X along the axis of TURN."
+  (loop for axis from 1 to 3 collect (if (= axis (linmodel-turn-axis turn)) x 0)))
+
+(defun linmodel-motions (a joints state gravity)
+  (let ((motions (make-array (length joints))))
+    (setf (aref motions 0)
+          (list (list 0 0 0) (list 0 0 0) (mapcar (lambda (x) (linmodel-minus a x)) gravity)))
+    (loop for k from 1 below (length joints)
+          for joint = (aref joints k)
+          do (setf (aref motions k)
+                   (linmodel-joint-motion
+                    a joint (aref motions (linmodel-joint-parent joint)) state)))
+    motions))
+
+;;; Loads.
+
+(defun linmodel-body-load (a body motion)
+  (destructuring-bind (w e acceleration) motion
+    (flet ((plus (u v) (linmodel-vector-plus a u v)) (cross (u v) (linmodel-cross a u v))
+           (tensor-times (tensor v) (if tensor (linmodel-matrix-times a tensor v) (list 0 0 0))))
+      (let* ((m (linmodel-body-mass body)) (c (linmodel-body-centre body))
+             (about-joint (linmodel-body-joint-inertia body))
+             (tensor (or about-joint (linmodel-body-centre-inertia body)))
+             (force (linmodel-vector-times
+                     a m (plus acceleration (plus (cross e c) (cross w (cross w c))))))
+             (spin (plus (tensor-times tensor w) (or (linmodel-body-momentum body) (list 0 0 0))))
+             (arm (if about-joint
+                      (linmodel-vector-times a m (cross c acceleration))
+                      (cross c force))))
+        (cons (plus (plus (tensor-times tensor e) (cross w spin)) arm) force)))))
+
+(defun linmodel-vector-times (a x vector)
+  (mapcar (lambda (component) (linmodel-times a x component)) vector))
+
+(defun linmodel-load-along (a twist load)
+  (linmodel-plus a (linmodel-dot a (car twist) (car load)) (linmodel-dot a (cdr twist) (cdr load))))
