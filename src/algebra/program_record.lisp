@@ -65,14 +65,21 @@
 
 (defun algebra-node-names (nodes computed stem)
   "Index of a node -> symbol or input."
-  (let ((names (make-hash-table)))
+  (let ((names (make-hash-table)) (stem (symbol-name (core-symbol stem))))
     (dolist (node nodes)
       (when (algebra-input-p node)
         (setf (gethash (algebra-node-index node) names) (algebra-node-left node))))
     (loop for node in computed
           for k from 1
-          do (setf (gethash (algebra-node-index node) names) (core-symbol (format nil "~a~d" stem k))))
+          do (setf (gethash (algebra-node-index node) names) (algebra-numbered-symbol stem k)))
     names))
+
+(defun algebra-numbered-symbol (stem k)
+  (let ((digits '()))
+    (loop do (push (code-char (+ 48 (mod k 10))) digits)
+             (setq k (floor k 10))
+          until (= k 0))
+    (intern (concatenate 'string stem digits) :maxima)))
 
 (defun algebra-written-number (x)
   (if (integerp x) x (list '(rat simp) (numerator x) (denominator x))))
@@ -85,14 +92,28 @@
 (defun algebra-written-node (node written)
   (let ((x (funcall written (algebra-node-left node))) (y (funcall written (algebra-node-right node))))
     (ecase (algebra-node-operation node)
-      (:add (add x y))
-      (:subtract (sub x y))
+      (:add (algebra-written-pair 'mplus x y))
+      (:subtract (algebra-written-pair 'mplus x (mul -1 y)))
       (:negate (mul -1 x))
-      (:multiply (mul x y))
-      (:divide (div x y))
+      (:multiply (algebra-written-pair 'mtimes x y))
+      (:divide (algebra-written-pair 'mtimes x (power y -1)))
       (:sine (list '(%sin simp) x))
       (:cosine (list '(%cos simp) x))
       (:root (power x '((rat simp) 1 2))))))
+
+(defun algebra-written-pair (operator x y)
+  "X and Y under OPERATOR. Two different names or their opposites need Maxima's order only."
+  (cond ((or ($constantp x) ($constantp y) (eq (algebra-written-base x) (algebra-written-base y)))
+         (simplifya (list (list operator) x y) nil))
+        ((great x y) (list (list operator 'simp) y x))
+        (t (list (list operator 'simp) x y))))
+
+(defun algebra-written-base (x)
+  "The name in X, which is a name, -1*name or 1/name."
+  (cond ((atom x) x)
+        ((eq (caar x) 'mexpt) (second x))
+        ((eq (caar x) 'mtimes) (third x))
+        (t x)))
 
 (defun algebra-written-output (value written)
   (cond ((or (numberp value) (algebra-node-p value)) (funcall written value))
