@@ -129,8 +129,9 @@ default."
     (values (and equation (caddr equation)) (and equation t))))
 
 (defun archive-structure (call)
-  "The description without the keys of the analysis."
-  (let ((hidden (mapcar #'core-symbol *archive-analysis-keys*)))
+  "The description without the keys of the analysis. `values' stay for remarks about results, such
+as the size of what is neglected, and count in no digest: a formula must not depend on them."
+  (let ((hidden (mapcar #'core-symbol (remove "values" *archive-analysis-keys* :test #'equal))))
     (cons (car (archive-description (archive-call-archive call)))
           (remove-if (lambda (e) (member (cadr e) hidden)) (cdr (archive-description (archive-call-archive call)))))))
 
