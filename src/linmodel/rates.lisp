@@ -32,7 +32,7 @@
       (gethash name names)
       (member name (gethash :subscripted names) :test #'alike1)))
 
-(defun $linmodel_occurring (list e)
+(defun $linmodel_first_occurring (list e)
   "The first of LIST that occurs in E, or false."
   (let ((names (linmodel-names e)))
     (find-if (lambda (name) (linmodel-named-p name names)) (cdr list))))
