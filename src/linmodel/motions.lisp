@@ -64,10 +64,17 @@
 (defun linmodel-own-twists (a link turns n)
   "The list of (i w . v), i from 1 to N, of LINK on a parent at rest."
   (let ((place (linmodel-link-joint a link)) (rows (linmodel-link-rows a link)))
-    (loop for i from 1 to n
-          when (some (lambda (row) (not (eql 0 (nth i row))))
-                     (append rows (mapcar #'linmodel-turn-row turns)))
-            collect (cons i (linmodel-carried-twist a i (linmodel-twist-of i '()) turns place rows)))))
+    (loop for i in (linmodel-moving-indices (append rows (mapcar #'linmodel-turn-row turns)) n)
+          collect (cons i (linmodel-carried-twist a i (linmodel-twist-of i '()) turns place rows)))))
+
+(defun linmodel-moving-indices (rows n)
+  "The indices, from 1 to N, at which one of ROWS is not 0."
+  (let ((moving (make-array (1+ n) :initial-element nil)))
+    (dolist (row rows)
+      (loop for x in row
+            for i from 0
+            unless (eql x 0) do (setf (aref moving i) t)))
+    (loop for i from 1 to n when (aref moving i) collect i)))
 
 (defun linmodel-read-bodies (a bodies)
   (mapcar (lambda (body) (linmodel-read-body a body)) (cdr bodies)))
