@@ -44,12 +44,27 @@
   "Put SQUARE for variable^2 in P."
   (cond ((or (atom p) (pointergp variable (car p))) p)
         ((eq variable (car p)) (algebra-lower-powers p variable square))
-        (t (let ((sum 0) (changed nil))
-             (loop for (exponent coefficient) on (cdr p) by #'cddr
-                   for replaced = (algebra-replace-square coefficient variable square)
-                   do (unless (eq replaced coefficient) (setq changed t))
-                      (setq sum (pplus sum (ptimes (list (car p) exponent 1) replaced))))
-             (if changed sum p)))))
+        (t (let ((changed nil))
+             (flet ((replaced (coefficient)
+                      (let ((found (algebra-replace-square coefficient variable square)))
+                        (unless (eq found coefficient) (setq changed t))
+                        found)))
+               (let ((terms (loop for (exponent coefficient) on (cdr p) by #'cddr
+                                  collect exponent
+                                  collect (replaced coefficient))))
+                 (if changed (algebra-terms-together (car p) terms) p)))))))
+
+(defun algebra-terms-together (variable terms)
+  "The sum of the coefficients in TERMS, (exponent coefficient ..), times powers of VARIABLE."
+  (if (loop for (nil coefficient) on terms by #'cddr
+            always (or (atom coefficient) (pointergp variable (car coefficient))))
+      (psimp variable (loop for (exponent coefficient) on terms by #'cddr
+                            unless (pzerop coefficient)
+                              collect exponent and collect coefficient))
+      (let ((sum 0))
+        (loop for (exponent coefficient) on terms by #'cddr
+              do (setq sum (pplus sum (ptimes (list variable exponent 1) coefficient))))
+        sum)))
 
 (defun algebra-lower-powers (p variable square)
   (if (< (cadr p) 2)
