@@ -13,6 +13,8 @@
 (defparameter *analysis-none* '((mlist simp)))
 (defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
 
+(defparameter *analysis-linear-options* '("where" "unknowns" "function" "cyclic")
+  "Options of the first approximation and of what is computed from it.")
 (defparameter *analysis-where* (list "where" *analysis-none*))
 (defparameter *analysis-laws* (list "laws" *analysis-none*))
 (defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
@@ -62,24 +64,37 @@
 
 (core-public "FirstApproximation"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "solution") ("equations" "equations" "solution"))
-  :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
+  :trailing '("solution") :options *analysis-linear-options* :kinds *analysis-kinds*)
 (core-rule "FirstApproximation" *analysis-states* "analysis/first_approximation" "analysis_first_approximation_state"
   "state_equations" *analysis-variables* "solution" *analysis-where*
   *analysis-laws* *analysis-unknowns*)
 (core-rule "FirstApproximation" *analysis-motions* "analysis/first_approximation" "analysis_first_approximation_motion"
   "LagrangeEquations" "coordinates" "solution" *analysis-where* *analysis-laws*)
+(core-rule-given '("function" $routh) "FirstApproximation" *analysis-kinds* "analysis/first_approximation_momenta"
+  "analysis_first_approximation_routh"
+  "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution" *analysis-where* *analysis-laws*)
+(loop for (given kinds) in `((("function" $hamilton) ,*analysis-kinds*) ("hamiltonian" ("lagrangian")))
+      do (core-rule-given given "FirstApproximation" kinds "analysis/first_approximation_momenta"
+           "analysis_first_approximation_hamilton"
+           "HamiltonEquations" "coordinates" "solution" *analysis-where* *analysis-laws*))
 
-(core-rule-field "A" *analysis-states* "FirstApproximation" "A")
-(core-rule-field "M" *analysis-motions* "FirstApproximation" "M")
-(core-rule-field "S" *analysis-motions* "FirstApproximation" "S")
-(core-rule-field "W" *analysis-motions* "FirstApproximation" "W")
+(core-rule-field "A" *analysis-kinds* "FirstApproximation" "A")
+(loop for part in '("M" "S" "W")
+      do (core-rule-field part *analysis-kinds* "FirstApproximation" part)
+         (core-rule-given '("function" $hamilton) part *analysis-kinds* "analysis/first_approximation_momenta"
+           "analysis_no_second_order"))
 
 (core-public "CharacteristicPolynomial"
   :forms '(("matrices" "A" "lambda") ("pencil" "M" "S" "W" "lambda"))
-  :trailing '("solution") :options '("where" "unknowns" "lambda") :kinds *analysis-kinds*)
+  :trailing '("solution") :options (cons "lambda" *analysis-linear-options*) :kinds *analysis-kinds*)
 (core-rule "CharacteristicPolynomial" (cons "matrices" *analysis-states*) "analysis/characteristic"
   "analysis_characteristic_polynomial" "A" *analysis-lambda*)
 (core-rule "CharacteristicPolynomial" (cons "pencil" *analysis-motions*) "analysis/characteristic"
+  "analysis_pencil_polynomial" "M" "S" "W" *analysis-lambda*)
+(loop for given in '(("function" $hamilton) "hamiltonian")
+      do (core-rule-given given "CharacteristicPolynomial" *analysis-motions* "analysis/characteristic"
+           "analysis_characteristic_polynomial" "A" *analysis-lambda*))
+(core-rule-given '("function" $routh) "CharacteristicPolynomial" *analysis-states* "analysis/characteristic"
   "analysis_pencil_polynomial" "M" "S" "W" *analysis-lambda*)
 
 (core-rule-same-as "polynomial" *analysis-kinds* "CharacteristicPolynomial")
@@ -88,7 +103,7 @@
                                     ("RouthHurwitz" "analysis/hurwitz" "analysis_routh_hurwitz")
                                     ("LienardChipart" "analysis/lienard_chipart" "analysis_lienard_chipart"))
       do (core-public name :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
-                           :options '("where" "unknowns" "lambda") :kinds *analysis-kinds*)
+                           :options (cons "lambda" *analysis-linear-options*) :kinds *analysis-kinds*)
          (core-rule name :any part function "polynomial" *analysis-lambda*))
 
 (core-public "Stability"
@@ -117,7 +132,7 @@
 ;;; Matrices and forms
 
 (core-public "RootCount" :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
-                         :options '("where" "unknowns" "lambda") :kinds *analysis-kinds*)
+                         :options (cons "lambda" *analysis-linear-options*) :kinds *analysis-kinds*)
 (core-rule "RootCount" :any "analysis/root_count" "analysis_root_count" "polynomial" *analysis-lambda*)
 
 (core-public "RealNegativeRoots" :forms '(("polynomial" "polynomial" "u")))
@@ -129,11 +144,11 @@
          (core-rule name :any "analysis/definite" function "A"))
 
 (core-public "ForceStructure" :forms '(("pencil" "M" "S" "W"))
-                              :trailing '("solution") :options '("where") :kinds *analysis-motions*)
+                              :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
 (core-rule "ForceStructure" :any "analysis/forces" "analysis_force_structure" "M" "S" "W")
 
 (core-public "KelvinChetaev" :forms '(("forces" "M" "D" "G" "K" "P"))
-                             :trailing '("solution") :options '("where") :kinds *analysis-motions*)
+                             :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
 (core-rule "KelvinChetaev" :any "analysis/forces" "analysis_kelvin_chetaev" "M" "D" "G" "K" "P")
 (loop for part in '("D" "G" "K" "P")
       do (core-rule-field part *analysis-motions* "ForceStructure" part))

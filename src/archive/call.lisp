@@ -104,6 +104,7 @@ arrive as their values."
 (defparameter *archive-option-types*
   '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved" "matrices")
     (:form "canonical, factored or program" "form")
+    (:function "lagrange, routh or hamilton" "function")
     (:file "a file name in double quotes" "result"))
   "What the value of an option may be, and the options of which that holds; other values are looked
 at where they are used.")
@@ -112,6 +113,7 @@ at where they are used.")
   (ecase type
     (:truth (member value '(nil t)))
     (:form (member value '($canonical $factored $program)))
+    (:function (member value '($lagrange $routh $hamilton)))
     (:file (stringp value))))
 
 (defun archive-check-option (option value)

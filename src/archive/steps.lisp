@@ -16,9 +16,14 @@
 
 (defun archive-rule (call name)
   (core-find-rule name (archive-call-kind call)
-                  (lambda (option)
-                    (or (nth-value 1 (gethash option (archive-call-given call)))
-                        (nth-value 1 (archive-key-value call option))))))
+                  (lambda (condition) (archive-meets-p call condition))))
+
+(defun archive-meets-p (call condition)
+  "Whether the call or the archive gives the option CONDITION, or (option value) with this value."
+  (if (consp condition)
+      (eq (archive-option call (first condition) nil) (second condition))
+      (or (nth-value 1 (gethash condition (archive-call-given call)))
+          (nth-value 1 (archive-key-value call condition)))))
 
 (defun archive-input-name (input) (if (consp input) (car input) input))
 
@@ -38,7 +43,8 @@
 (defun archive-wanted-option (name kind)
   "An option without which there is no rule for NAME in archives of KIND, or nil."
   (let ((rule (core-find-rule name kind (constantly t))))
-    (and rule (null (core-find-rule name kind (constantly nil))) (rule-given rule))))
+    (and rule (null (core-find-rule name kind (constantly nil)))
+         (archive-input-name (rule-given rule)))))
 
 ;;; What a quantity depends on
 
@@ -56,11 +62,16 @@
       (cond (given (push (format nil "~a = ~a" name (archive-spell value)) (archive-need-extras need)))
             ((equal name "description") (push "*" (archive-need-keys need)))
             ((null rule) (push name (archive-need-keys need)))
-            ((rule-same rule) (archive-add-needs call need (rule-same rule)))
-            ((rule-record rule) (archive-add-needs call need (rule-record rule)))
-            (t (dolist (input (rule-inputs rule))
+            (t (dolist (input (archive-rule-sources rule))
                  (archive-add-needs call need (archive-input-name input)))
-               (archive-add-edited call name need))))))
+               (when (rule-function rule) (archive-add-edited call name need)))))))
+
+(defun archive-rule-sources (rule)
+  "What a quantity by RULE depends on: the condition of the rule too."
+  (append (and (rule-given rule) (list (rule-given rule)))
+          (cond ((rule-same rule) (list (rule-same rule)))
+                ((rule-record rule) (list (rule-record rule)))
+                (t (rule-inputs rule)))))
 
 (defun archive-add-needs (call need name)
   (let ((more (archive-needs call name)))

@@ -38,7 +38,8 @@ or :any."
   (core-add-rule name (make-core-rule :kinds kinds :part part :function (core-symbol function) :inputs inputs)))
 
 (defun core-rule-given (option name kinds part function &rest inputs)
-  "The same where OPTION is given, in the call or as a key of the archive."
+  "The same where OPTION is given, in the call or as a key of the archive; where it is (option
+value), only with that value."
   (core-add-rule name (make-core-rule :kinds kinds :given option :part part :function (core-symbol function) :inputs inputs)))
 
 (defun core-rule-same-as (name kinds other &key given)
@@ -65,18 +66,22 @@ without $ inside."
     (if (and (plusp (length name)) (char= (char name 0) #\$)) (subseq name 1) name)))
 
 (defun core-rule-fits (rule kind given)
-  "Whether RULE serves an archive of KIND; GIVEN tells of an option whether the call has it."
+  "Whether RULE serves an archive of KIND; GIVEN tells whether the call has an option, or (option value)."
   (and (or (eq (rule-kinds rule) :any) (member kind (rule-kinds rule) :test #'equal))
        (or (null (rule-given rule)) (funcall given (rule-given rule)))))
 
 (defun core-rule-rank (rule)
   "The special before the general."
-  (+ (if (rule-given rule) 0 1) (if (eq (rule-kinds rule) :any) 2 0)))
+  (+ (cond ((null (rule-given rule)) 2) ((consp (rule-given rule)) 0) (t 1))
+     (if (eq (rule-kinds rule) :any) 3 0)))
 
 (defun core-find-rule (name kind given)
   "The rule for quantity NAME, or nil."
-  (first (sort (remove-if-not (lambda (rule) (core-rule-fits rule kind given)) (gethash name *core-rules*))
-               #'< :key #'core-rule-rank)))
+  (let ((best nil))
+    (dolist (rule (gethash name *core-rules*) best)
+      (when (and (core-rule-fits rule kind given)
+                 (or (null best) (< (core-rule-rank rule) (core-rule-rank best))))
+        (setq best rule)))))
 
 (defun core-rule-ready-p (rule)
   "Whether the pure function that RULE names is there, its part loaded."

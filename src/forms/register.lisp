@@ -73,12 +73,14 @@
 
 (core-public "HamiltonEquations"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
-  :options '("momenta" "rayleigh" "forces")
+  :options '("momenta" "rayleigh" "forces" "constraints" "nonholonomic")
   :kinds *forms-kinds*)
 (core-rule "HamiltonEquations" :any "forms/hamilton" "forms_hamilton_equations"
-  "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp))) '("form" $auto))
+  "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp)))
+  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("form" $auto))
 (core-rule-given "hamiltonian" "HamiltonEquations" '("lagrangian") "forms/hamilton" "forms_hamilton_equations_of"
-  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) '("forces" ((mlist simp))) '("form" $auto))
+  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) '("forces" ((mlist simp)))
+  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("form" $auto))
 
 ;;; Dirac
 
