@@ -43,7 +43,7 @@
    :lift #'identity
    :lower #'identity
    :add (lambda (x y) (add x y))
-   :multiply (lambda (x y) (mul x y))
+   :multiply #'linmodel-product
    :sine #'linmodel-sine
    :cosine #'linmodel-cosine
    :turn #'linmodel-turned-plane

@@ -72,12 +72,16 @@
 
 (defun linmodel-inertia-form (a links bodies n)
   "The array of (x_i, x_j), i <= j, i and j from 0 to N."
-  (let ((twists (linmodel-all-twists a (cdr links) n))
-        (form (make-array (list (1+ n) (1+ n)) :initial-element 0)))
-    (dolist (body (cdr bodies) form)
-      (let* ((body (linmodel-read-body a body))
-             (momentum (linmodel-body-momentum body))
-             (body-twists (nth (1- (linmodel-body-link body)) twists)))
+  (linmodel-form-of-twists a (linmodel-all-twists a (cdr links) n)
+                           (mapcar (lambda (body) (linmodel-read-body a body)) (cdr bodies))
+                           n))
+
+(defun linmodel-form-of-twists (a twists bodies n)
+  "The same for the TWISTS of each link."
+  (let ((form (make-array (list (1+ n) (1+ n)) :initial-element 0)))
+    (dolist (body bodies form)
+      (let ((momentum (linmodel-body-momentum body))
+            (body-twists (nth (1- (linmodel-body-link body)) twists)))
         (linmodel-add-body a form body body-twists)
         (when momentum (linmodel-add-momentum a form momentum body-twists))))))
 

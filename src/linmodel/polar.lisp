@@ -7,6 +7,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "linmodel/product"))
+
 (defun linmodel-sine (angle) (simplify (list '(%sin) angle)))
 (defun linmodel-cosine (angle) (simplify (list '(%cos) angle)))
 
@@ -14,9 +17,6 @@
   (cond ((eql e 0) '())
         ((mplusp e) (cdr e))
         (t (list e))))
-
-(defun linmodel-factors (e)
-  (if (mtimesp e) (cdr e) (list e)))
 
 (defun linmodel-polar (x y)
   "The vector (X, Y) as a list of (u p r)."
@@ -33,19 +33,33 @@
 (defun linmodel-polar-part (term others)
   "The (u p r) of the TERM of x and its partner among the OTHERS, the terms of y; or nil."
   (dolist (factor (linmodel-factors term))
-    (when (and (consp factor) (member (caar factor) '(%cos %sin)))
-      (let* ((angle (cadr factor)) (coefficient (div term factor))
-             (cosine (eq (caar factor) '%cos))
-             (partner (mul coefficient
-                           (if cosine (linmodel-sine angle) (linmodel-cosine angle)))))
-        (dolist (sign (if cosine '(-1 1) '(1 -1)))
-          (let ((signed (mul sign partner)))
-            (when (member signed others :test #'alike1)
-              (return-from linmodel-polar-part
-                (list (if cosine
-                          (list (mul (- sign) angle) coefficient 0)
-                          (list (mul sign angle) 0 (mul sign coefficient)))
-                      signed)))))))))
+    (when (linmodel-partner-possible-p factor others)
+      (let ((part (linmodel-polar-pair term factor others)))
+        (when part (return part))))))
+
+(defun linmodel-partner-possible-p (factor others)
+  "Whether FACTOR is cos(u) or sin(u) and sin(u) or cos(u) a factor among the OTHERS."
+  (and (consp factor)
+       (member (caar factor) '(%cos %sin))
+       (loop with partner = (if (eq (caar factor) '%cos) '%sin '%cos)
+             for other in others
+             thereis (loop for e in (linmodel-factors other)
+                           thereis (and (consp e) (eq (caar e) partner)
+                                        (alike1 (cadr e) (cadr factor)))))))
+
+(defun linmodel-polar-pair (term factor others)
+  (let* ((angle (cadr factor))
+         (cosine (eq (caar factor) '%cos))
+         (coefficient (linmodel-of-factors (remove factor (linmodel-factors term) :test #'eq)))
+         (partner (linmodel-product
+                   coefficient (if cosine (linmodel-sine angle) (linmodel-cosine angle)))))
+    (dolist (sign (if cosine '(-1 1) '(1 -1)))
+      (let ((signed (if (= sign 1) partner (linmodel-negated partner))))
+        (when (member signed others :test #'alike1)
+          (return (list (if cosine
+                            (list (mul (- sign) angle) coefficient 0)
+                            (list (mul sign angle) 0 (mul sign coefficient)))
+                        signed)))))))
 
 (defun linmodel-turned-plane (x y angle)
   "(X, Y) in axes turned by ANGLE."
@@ -54,9 +68,14 @@
           for sum = (add u angle)
           for cosine = (linmodel-cosine sum)
           for sine = (linmodel-sine sum)
-          do (setq turned-x (add turned-x (mul p cosine) (mul r sine))
-                   turned-y (add turned-y (mul r cosine) (mul -1 p sine))))
+          do (setq turned-x (add turned-x (linmodel-product-or-0 p cosine)
+                                 (linmodel-product-or-0 r sine))
+                   turned-y (add turned-y (linmodel-product-or-0 r cosine)
+                                 (linmodel-negated (linmodel-product-or-0 p sine)))))
     (list turned-x turned-y)))
+
+(defun linmodel-product-or-0 (x y)
+  (if (or (eql x 0) (eql y 0)) 0 (linmodel-product x y)))
 
 (defun linmodel-plane-product (x y v w)
   "X*V + Y*W, by one polar angle where each of (X, Y), (V, W) has one; else nil."

@@ -1,0 +1,50 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; M q'' = f by projection on the partial velocities, without a derivative of L: x_j = (w_j . v_j)
+;;; being the twists of a body and (N . F) the load that gives it its bias acceleration,
+;;;     M_ij = sum over bodies of (x_i, x_j),   f_j = given_j - sum (w_j.N + v_j.F),
+;;; (x, y) as in inertia.lisp, given_j the forces that no constant field gives: dU/dq - dR/dq' + Q.
+;;; This is Kane's form; a constant field enters as an acceleration of the fixed axes.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "linmodel/motions"))
+
+(defun linmodel-projected-loads (a twists bodies motions n)
+  "The list of sum (w_j.N + v_j.F), j from 1 to N."
+  (let ((found (make-array (1+ n) :initial-element 0)))
+    (dolist (body bodies (cdr (coerce found 'list)))
+      (let ((load (linmodel-body-load a body (aref motions (linmodel-body-link body)))))
+        (loop for (j . twist) in (nth (1- (linmodel-body-link body)) twists)
+              do (setf (aref found j)
+                       (linmodel-plus a (aref found j) (linmodel-load-along a twist load))))))))
+
+(defun linmodel-projection (a scene gravity given velocities)
+  "Rows of M and list of f as elements; the SCENE is [coordinates, links, bodies]."
+  (destructuring-bind (q links bodies) (cdr scene)
+    (let* ((n (length (cdr q)))
+           (state (make-linmodel-state :names (cdr q)
+                                       :velocities (linmodel-lift-vector a velocities)
+                                       :accelerations (loop repeat n collect 0)))
+           (twists (linmodel-all-twists a (cdr links) n))
+           (joints (linmodel-read-joints a links bodies state))
+           (bodies (linmodel-read-bodies a bodies))
+           (form (linmodel-form-of-twists a twists bodies n))
+           (motions (linmodel-motions a joints state (linmodel-lift-vector a gravity))))
+      (values (loop for i from 1 to n
+                    collect (loop for j from 1 to n collect (aref form (min i j) (max i j))))
+              (mapcar (lambda (given load) (linmodel-plus a given (linmodel-minus a load)))
+                      (linmodel-lift-vector a given)
+                      (linmodel-projected-loads a twists bodies motions n))))))
+
+;;; For Maxima.
+
+(defun $linmodel_projected_mass_form (scene gravity given velocities form)
+  "[M, f] in the names of the VELOCITIES."
+  (linmodel-compute
+   form
+   (lambda (a)
+     (multiple-value-bind (rows right) (linmodel-projection a scene gravity given velocities)
+       (list '(mlist simp)
+             (cons '($matrix simp) (mapcar (lambda (row) (linmodel-lower-vector a row)) rows))
+             (linmodel-lower-vector a right))))))
