@@ -21,27 +21,54 @@
   begin end           ; of part k: functions of name and k, or of name, lengths and k
   last-lines)
 
-(defun algebra-c-number (x)
-  (if (integerp x) (format nil "~d.0" x) (format nil "(~d.0/~d.0)" (numerator x) (denominator x))))
+;;; Numbers: quotients of whole numbers that double-float numbers hold, else the nearest of these.
 
-(defun algebra-fortran-number (x)
-  (if (integerp x)
-      (format nil "(~d.0d0)" x)
-      (format nil "(~d.0d0/~d.0d0)" (numerator x) (denominator x))))
+(defun algebra-exported-number (x whole quotient marker)
+  "X by the format WHOLE or QUOTIENT, or as a decimal with MARKER before its exponent."
+  (cond ((> (max (abs (numerator x)) (denominator x)) (expt 2 53)) (algebra-double-text x marker))
+        ((integerp x) (format nil whole x))
+        (t (format nil quotient (numerator x) (denominator x)))))
 
-(defun algebra-lisp-number (x)
-  (if (integerp x)
-      (format nil "~d.0d0" x)
-      (format nil "(/ ~d.0d0 ~d.0d0)" (numerator x) (denominator x))))
+(defun algebra-double-text (x marker)
+  (let* ((*read-default-float-format* 'double-float)
+         (text (string-downcase (prin1-to-string (coerce x 'double-float))))
+         (mark (position-if #'alpha-char-p text)))
+    (format nil "~a~a~a" (subseq text 0 mark) marker (if mark (subseq text (1+ mark)) "0"))))
+
+(defun algebra-c-number (x) (algebra-exported-number x "~d.0" "(~d.0/~d.0)" "e"))
+(defun algebra-fortran-number (x) (algebra-exported-number x "(~d.0d0)" "(~d.0d0/~d.0d0)" "d"))
+(defun algebra-lisp-number (x) (algebra-exported-number x "~d.0d0" "(/ ~d.0d0 ~d.0d0)" "d"))
+
+;;; Operations. What the languages write alike comes last, so that each can say it differently.
 
 (defparameter *algebra-infix-formats*
   '((:add . "~a + ~a") (:subtract . "~a - ~a") (:negate . "-~a") (:multiply . "~a*~a")
-    (:divide . "~a/~a") (:sine . "sin(~a)") (:cosine . "cos(~a)") (:root . "sqrt(~a)")))
+    (:divide . "~a/~a") (:sine . "sin(~a)") (:cosine . "cos(~a)") (:root . "sqrt(~a)")
+    (:exponential . "exp(~a)") (:logarithm . "log(~a)") (:arcsine . "asin(~a)")
+    (:arccosine . "acos(~a)") (:arctangent . "atan(~a)") (:polar-angle . "atan2(~a, ~a)")
+    (:hyperbolic-sine . "sinh(~a)") (:hyperbolic-cosine . "cosh(~a)")
+    (:hyperbolic-tangent . "tanh(~a)") (:absolute . "abs(~a)") (:power . "~a**~a")))
+
+(defparameter *algebra-c-formats*
+  (append '((:absolute . "fabs(~a)") (:power . "pow(~a, ~a)")
+            (:sign . "(double)((~a > 0.0) - (~:*~a < 0.0))"))
+          *algebra-infix-formats*))
+
+(defparameter *algebra-fortran-formats*
+  (append '((:sign . "merge(0.0d0, sign(1.0d0, ~a), ~:*~a == 0.0d0)")) *algebra-infix-formats*))
+
+(defparameter *algebra-python-formats*
+  (append '((:sign . "float((~a > 0.0) - (~:*~a < 0.0))")) *algebra-infix-formats*))
 
 (defparameter *algebra-lisp-formats*
   '((:add . "(+ ~a ~a)") (:subtract . "(- ~a ~a)") (:negate . "(- ~a)")
     (:multiply . "(* ~a ~a)") (:divide . "(/ ~a ~a)")
-    (:sine . "(sin ~a)") (:cosine . "(cos ~a)") (:root . "(sqrt ~a)")))
+    (:sine . "(sin ~a)") (:cosine . "(cos ~a)") (:root . "(sqrt ~a)")
+    (:exponential . "(exp ~a)") (:logarithm . "(log ~a)") (:arcsine . "(asin ~a)")
+    (:arccosine . "(acos ~a)") (:arctangent . "(atan ~a)") (:polar-angle . "(atan ~a ~a)")
+    (:hyperbolic-sine . "(sinh ~a)") (:hyperbolic-cosine . "(cosh ~a)")
+    (:hyperbolic-tangent . "(tanh ~a)") (:absolute . "(abs ~a)") (:sign . "(signum ~a)")
+    (:power . "(expt ~a ~a)")))
 
 (defun algebra-lines (&rest lines) (format nil "~{~a~%~}" lines))
 
@@ -50,7 +77,7 @@
 (defparameter *algebra-languages*
   (list
    (make-algebra-language
-    :name "c" :comment "//" :number #'algebra-c-number :formats *algebra-infix-formats*
+    :name "c" :comment "//" :number #'algebra-c-number :formats *algebra-c-formats*
     :place (lambda (array k) (format nil "~a[~d]" array (1- k)))
     :assignment "  ~a = ~a;~%"
     :first-lines (lambda (name nx ny nz parts)
@@ -68,7 +95,7 @@
                           (loop for k in (algebra-part-numbers parts)
                                 collect (format nil "  ~a_~d(x, y, z);~%" name k)))))
    (make-algebra-language
-    :name "fortran" :comment "!" :number #'algebra-fortran-number :formats *algebra-infix-formats*
+    :name "fortran" :comment "!" :number #'algebra-fortran-number :formats *algebra-fortran-formats*
     :place (lambda (array k) (format nil "~a(~d)" array k))
     :assignment "  ~a = ~a~%"
     :first-lines (lambda (name nx ny nz parts) (declare (ignore name nx ny nz parts)) "")
@@ -88,12 +115,14 @@
                                  collect (format nil "~a_~d(x, y, z)" name k)))
                    (format nil "end subroutine ~a" name))))
    (make-algebra-language
-    :name "python" :comment "#" :number #'algebra-c-number :formats *algebra-infix-formats*
+    :name "python" :comment "#" :number #'algebra-c-number
+    :formats *algebra-python-formats*
     :place (lambda (array k) (format nil "~a[~d]" array (1- k)))
     :assignment "    ~a = ~a~%"
     :first-lines (lambda (name nx ny nz parts)
                    (declare (ignore name nx ny nz parts))
-                   (algebra-lines "from math import cos, sin, sqrt" "" ""))
+                   (algebra-lines "from math import (acos, asin, atan, atan2, cos, cosh, exp, log,"
+                                  "                  sin, sinh, sqrt, tan, tanh)" "" ""))
     :begin (lambda (name nx ny nz k)
              (declare (ignore nx ny nz))
              (algebra-lines (format nil "def _~a_~d(x, y, z):" name k)))

@@ -12,7 +12,7 @@
   (let ((x (algebra-node-left node)) (y (algebra-node-right node)))
     (remove-if-not
      #'algebra-node-p
-     (ecase (algebra-node-operation node)
+     (case (algebra-node-operation node)
        (:input '())
        (:add (list (cons x 1) (cons y 1)))
        (:subtract (list (cons x 1) (cons y -1)))
@@ -22,8 +22,13 @@
                       (cons y (algebra-program-negate (algebra-program-divide node y)))))
        (:sine (list (cons x (algebra-program-cosine x))))
        (:cosine (list (cons x (algebra-program-negate (algebra-program-sine x)))))
-       (:root (list (cons x (algebra-program-divide 1 (algebra-program-multiply 2 node))))))
+       (:root (list (cons x (algebra-program-divide 1 (algebra-program-multiply 2 node)))))
+       (t (algebra-function-slopes-of node x y)))
      :key #'car)))
+
+(defun algebra-function-slopes-of (node x y)
+  (let ((row (algebra-function-of (algebra-node-operation node))))
+    (mapcar #'cons (list x y) (funcall (algebra-function-slopes row) node x y))))
 
 (defun algebra-program-gradient (element inputs)
   "The derivatives of ELEMENT by INPUTS, which are nodes."

@@ -91,7 +91,7 @@
 
 (defun algebra-written-node (node written)
   (let ((x (funcall written (algebra-node-left node))) (y (funcall written (algebra-node-right node))))
-    (ecase (algebra-node-operation node)
+    (case (algebra-node-operation node)
       (:add (algebra-written-pair 'mplus x y))
       (:subtract (algebra-written-pair 'mplus x (mul -1 y)))
       (:negate (mul -1 x))
@@ -99,7 +99,12 @@
       (:divide (algebra-written-pair 'mtimes x (power y -1)))
       (:sine (list '(%sin simp) x))
       (:cosine (list '(%cos simp) x))
-      (:root (power x '((rat simp) 1 2))))))
+      (:root (power x '((rat simp) 1 2)))
+      (:exponential (power '$%e x))
+      (:power (power x y))
+      (:polar-angle (mfuncall '$atan2 x y))
+      (t (simplifya (list (list (algebra-function-operator
+                                 (algebra-function-of (algebra-node-operation node)))) x) nil)))))
 
 (defun algebra-written-pair (operator x y)
   "X and Y under OPERATOR. Two different names or their opposites need Maxima's order only."
@@ -142,7 +147,8 @@
 
 (defun algebra-read-element (e known)
   (cond ((symbolp e) (or (gethash e known) (algebra-program-element e)))
-        ((or (atom e) (member (caar e) '(rat %derivative))) (algebra-program-element e))
+        ((or (atom e) (algebra-subscripted-p e) (member (caar e) '(rat %derivative)))
+         (algebra-program-element e))
         (t (algebra-converted-operation e (lambda (part) (algebra-read-element part known))))))
 
 (defun algebra-read-output (e known)
