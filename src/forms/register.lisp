@@ -30,8 +30,9 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("rayleigh" "forces")
   :kinds *forms-kinds*)
-(core-rule "MassForm" :any "forms/mass" "forms_mass_form"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("form" $auto))
+(core-rule "MassForm" :any "forms/mass" "forms_free_mass_form"
+  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
+  '("nonholonomic" ((mlist simp))) '("form" $auto))
 
 (core-public "Quadratics"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
@@ -117,8 +118,9 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("rayleigh" "forces" "solved" "inverse")
   :kinds *forms-kinds*)
-(core-rule "EquationProgram" :any "forms/equation_program" "forms_equation_program"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("solved" nil) '("inverse" nil))
+(core-rule "EquationProgram" :any "forms/equation_program" "forms_free_equation_program"
+  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
+  '("nonholonomic" ((mlist simp))) '("solved" nil) '("inverse" nil))
 
 (core-public "ExportProgram"
   :forms '(("expressions" "program" "file"))

@@ -15,8 +15,9 @@
 (core-public "Lagrangian" :kinds '("mechanical"))
 (core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description" '("form" $auto))
 
-(core-rule "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_equation_program"
-  "description" '("rayleigh" 0) '("forces" ((mlist simp))) '("solved" nil) '("inverse" nil))
+(core-rule "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_free_equation_program"
+  "description" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
+  '("nonholonomic" ((mlist simp))) '("solved" nil) '("inverse" nil))
 
 ;;; Equations in quasi-velocities
 
