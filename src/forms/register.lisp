@@ -110,7 +110,7 @@
   :kinds *forms-kinds*)
 (core-rule "FirstIntegrals" :any "forms/integrals" "forms_first_integrals"
   "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
-  '("nonholonomic" ((mlist simp))) '("form" $auto))
+  '("nonholonomic" ((mlist simp))) '("axis_momenta" ((mlist simp))) '("form" $auto))
 
 ;;; Programs
 

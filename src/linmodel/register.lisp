@@ -36,3 +36,8 @@
 (core-rule "constraints" '("mechanical") "linmodel/loads" "linmodel_constraints" "description")
 (core-rule "nonholonomic" '("mechanical") "linmodel/loads" "linmodel_nonholonomic" "description")
 (core-rule "momenta" '("mechanical") "linmodel/loads" "linmodel_momenta" "description")
+
+;;; What may be constant by symmetry of the whole system
+
+(core-rule "axis_momenta" '("mechanical") "linmodel/axes" "linmodel_axis_momenta"
+  "description" '("form" $auto))
