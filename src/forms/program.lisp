@@ -2,79 +2,92 @@
 ;;; Program form of M q'' = f from Lagrange's function, by derivatives on programs:
 ;;;     p_i = dL/dq_i',   M_ij = dp_i/dq_j',
 ;;;     f_i = dL/dq_i - (sum dp_i/dq_j q_j' + dp_i/dt) - dR/dq_i' + Q_i,
-;;; and the accelerations by M = L D L^T. An element of a matrix of mass that is 0 costs nothing.
+;;; the left sides e_i = M q'' - f in one run forward, with q_j'' as the rate of q_j', and the
+;;; accelerations by M = L D L^T. See forms-program-mass-form first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_derivative" "algebra/program_record"))
+  (core-require "algebra/program_derivative" "forms/program_constraints" "forms/program_check"))
 
-(defun forms-program-mass-form (function dissipation forces q v)
-  "(M f): rows and list of elements; Q and V are expressions, the others elements."
-  (let* ((places (mapcar #'algebra-program-input q))
-         (velocities (mapcar #'algebra-program-input v))
-         (momenta (algebra-program-gradient function velocities))
-         (slopes (algebra-program-gradient function places))
-         (damping (algebra-program-gradient dissipation velocities))
-         (rates (algebra-program-rates
-                 momenta (acons (algebra-program-input '$t) 1 (mapcar #'cons places velocities)))))
-    (list (mapcar (lambda (momentum) (algebra-program-gradient momentum velocities)) momenta)
-          (mapcar (lambda (slope rate damped force)
-                    (algebra-program-add
-                     (algebra-program-subtract (algebra-program-subtract slope rate) damped) force))
-                  slopes rates damping forces))))
+(defstruct forms-program-terms
+  momenta slopes damping forces ; p_i, dL/dq_i, dR/dq_i', Q_i: lists of elements
+  places velocities)            ; nodes
 
-;;; Symmetric linear equations.
+(defun forms-read-program-terms (function dissipation forces q v)
+  "FUNCTION, DISSIPATION, FORCES, Q and V are expressions."
+  (let ((places (mapcar #'algebra-program-input q))
+        (velocities (mapcar #'algebra-program-input v))
+        (function (algebra-program-element function)))
+    (make-forms-program-terms
+     :places places :velocities velocities
+     :momenta (algebra-program-gradient function velocities)
+     :slopes (algebra-program-gradient function places)
+     :damping (algebra-program-gradient (algebra-program-element dissipation) velocities)
+     :forces (mapcar #'algebra-program-element forces))))
 
-(defun forms-program-factors (rows)
-  "The array with L below the diagonal and D on it, ROWS = L D L^T."
-  (let* ((n (length rows)) (a (make-array (list n n) :initial-contents rows)))
-    (dotimes (k n a)
-      (when (eql (aref a k k) 0)
-        (core-error "the mass matrix is singular: the accelerations do not follow from the equations"))
-      (loop for i from (1+ k) below n
-            do (if (eql (aref a k i) 0)
-                   (setf (aref a i k) 0)
-                   (forms-take-row a i k n))))))
+(defun forms-program-left-sides (terms accelerations)
+  "The list of e_i for ACCELERATIONS, elements."
+  (let* ((velocities (forms-program-terms-velocities terms))
+         (rates (append (mapcar #'cons (forms-program-terms-places terms) velocities)
+                        (mapcar #'cons velocities accelerations)
+                        (list (cons (algebra-program-input '$t) 1)))))
+    (mapcar (lambda (rate slope damping force)
+              (algebra-program-subtract
+               (algebra-program-add (algebra-program-subtract rate slope) damping) force))
+            (algebra-program-rates (forms-program-terms-momenta terms) rates)
+            (forms-program-terms-slopes terms)
+            (forms-program-terms-damping terms)
+            (forms-program-terms-forces terms))))
 
-(defun forms-take-row (a i k n)
-  "Takes row K out of row I from the diagonal on; the factor of L goes to A[i,k]."
-  (let ((factor (algebra-program-divide (aref a k i) (aref a k k))))
-    (loop for j from i below n
-          do (setf (aref a i j)
-                   (algebra-program-subtract (aref a i j)
-                                             (algebra-program-multiply factor (aref a k j)))))
-    (setf (aref a i k) factor)))
+(defun forms-program-mass-form (terms)
+  "(M f): rows and list of elements."
+  (let ((velocities (forms-program-terms-velocities terms)))
+    (list (mapcar (lambda (momentum) (algebra-program-gradient momentum velocities))
+                  (forms-program-terms-momenta terms))
+          (mapcar #'algebra-program-negate
+                  (forms-program-left-sides terms (mapcar (constantly 0) velocities))))))
 
-(defun forms-program-solution (rows right)
-  "x of ROWS x = RIGHT, the rows symmetric."
-  (let* ((n (length right)) (a (forms-program-factors rows)) (x (coerce right 'vector)))
-    (flet ((take (i factor j)
-             (setf (aref x i)
-                   (algebra-program-subtract (aref x i) (algebra-program-multiply factor (aref x j))))))
-      (dotimes (i n) (dotimes (j i) (take i (aref a i j) j)))
-      (dotimes (i n) (setf (aref x i) (algebra-program-divide (aref x i) (aref a i i))))
-      (loop for i from (1- n) downto 0
-            do (loop for j from (1+ i) below n do (take i (aref a j i) j))))
-    (coerce x 'list)))
-
-(defun forms-program-outputs (rows right solved)
-  (if solved
-      (list (cons '$accelerations (cons :list (forms-program-solution rows right))))
-      (list (cons '|$m| (cons :matrix rows)) (cons '$f (cons :list right)))))
+(defun forms-program-outputs (result terms bonds accelerations multipliers)
+  (if (eq result '$inverse)
+      (forms-inverse-outputs (forms-program-left-sides terms accelerations) bonds multipliers)
+      (destructuring-bind (rows right) (forms-program-mass-form terms)
+        (if (eq result '$solved)
+            (let ((factors (forms-program-factors rows *forms-singular-mass*)))
+              (flet ((solve (forces) (forms-program-solution-by factors forces)))
+                (forms-solved-outputs (solve right) #'solve bonds)))
+            (forms-mass-outputs rows right bonds)))))
 
 ;;; For Maxima.
 
-(defun $forms_program_of (function dissipation forces q v pairs solved)
-  "The record of M and f, or of the accelerations; PAIRS, v = 'diff(q,t), .., give the names outside."
-  (with-algebra-program
-    (destructuring-bind (rows right)
-        (forms-program-mass-form (algebra-program-element function)
-                                 (algebra-program-element dissipation)
-                                 (mapcar #'algebra-program-element (cdr forces))
-                                 (cdr q) (cdr v))
-      (forms-program-record q pairs (forms-program-outputs rows right solved)))))
+(defun forms-task-bonds (task)
+  (flet ((elements (expressions) (mapcar #'algebra-program-element expressions))
+         (inputs (names) (mapcar #'algebra-program-input names)))
+    (forms-program-bonds (elements (forms-task-holonomic task))
+                         (elements (forms-task-nonholonomic task))
+                         (inputs (forms-task-q task)) (inputs (forms-task-v task)))))
 
-(defun forms-program-record (q pairs outputs)
-  (algebra-rename-inputs pairs)
-  (algebra-program-record (append (cdr q) (mapcar #'third (cdr pairs))) outputs))
+(defun $forms_program_of (plain task)
+  "The record of the program of the TASK; PLAIN is [L, R, [Q_1, ..]]."
+  (destructuring-bind (function dissipation forces) (cdr plain)
+    (let ((task (forms-read-task task)))
+      (with-algebra-program
+        (let ((terms (forms-read-program-terms function dissipation (cdr forces)
+                                               (forms-task-q task) (forms-task-v task))))
+          (flet ((inputs (names) (mapcar #'algebra-program-input names)))
+            (forms-checked-program
+             task
+             (forms-program-outputs (forms-task-result task) terms (forms-task-bonds task)
+                                    (inputs (forms-task-a task))
+                                    (inputs (forms-task-multipliers task)))
+             (forms-judge-of-expressions function dissipation (cdr forces)))))))))
+
+(defun forms-checked-program (task outputs judge)
+  "The record of OUTPUTS, shown to be right at a random point by the JUDGE."
+  (forms-check-program task outputs judge)
+  (algebra-rename-inputs (cons '(mlist) (forms-task-pairs task)))
+  (algebra-program-record
+   (append (forms-task-q task)
+           (mapcar #'third (forms-task-pairs task))
+           (and (eq (forms-task-result task) '$inverse) (forms-task-multipliers task)))
+   outputs))

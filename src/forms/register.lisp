@@ -91,14 +91,14 @@
 
 (core-public "DiracScheme"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
-  :options '("momenta")
+  :options '("momenta" "constraints")
   :kinds *forms-kinds*)
 (apply #'core-rule "DiracScheme" :any "forms/dirac" "forms_dirac_scheme" "Lagrangian" "coordinates" *forms-dirac-inputs*)
 
 (core-public "DiracBracket"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "f" "g"))
   :trailing '("f" "g")
-  :options '("momenta")
+  :options '("momenta" "constraints")
   :kinds *forms-kinds*)
 (apply #'core-rule "DiracBracket" :any "forms/dirac" "forms_dirac_bracket" "Lagrangian" "coordinates" "f" "g" *forms-dirac-inputs*)
 
@@ -118,9 +118,17 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("rayleigh" "forces" "solved" "inverse")
   :kinds *forms-kinds*)
-(core-rule "EquationProgram" :any "forms/equation_program" "forms_free_equation_program"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
-  '("nonholonomic" ((mlist simp))) '("solved" nil) '("inverse" nil))
+(defparameter *forms-program-inputs*
+  '(("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))
+    ("laws" ((mlist simp)))))
+
+(apply #'core-rule "EquationProgram" :any "forms/equation_program" "forms_equation_program"
+       "Lagrangian" "coordinates" (append *forms-program-inputs* '(("solved" nil) ("inverse" nil))))
+(apply #'core-rule-given '("form" $program) "MassForm" :any "forms/equation_program" "forms_mass_program"
+       "Lagrangian" "coordinates" *forms-program-inputs*)
+(apply #'core-rule-given '("form" $program) "LagrangeEquations" :any "forms/equation_program" "forms_lagrange_program"
+       "Lagrangian" "coordinates"
+       (append *forms-program-inputs* '(("simplify" nil) ("expanded" nil) ("eliminate" nil))))
 
 (core-public "ExportProgram"
   :forms '(("expressions" "program" "file"))

@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/program" "forms/program"))
+  (core-require "linmodel/program" "forms/program_linear"))
 
 (defun linmodel-inertia-about-joint (a body)
   (let ((m (linmodel-body-mass body)) (c (linmodel-body-centre body))
@@ -233,59 +233,3 @@
    (loop for drive in (linmodel-articulation-drive articulation)
          for column in (linmodel-articulation-columns articulation)
          collect (linmodel-plus a drive (linmodel-minus a (linmodel-dot a column carried))))))
-
-;;; For Maxima.
-
-(defun linmodel-given-forces (potential dissipation forces q v)
-  "dU/dq - dR/dq' + Q, U what the field does not give."
-  (mapcar (lambda (slope damping force)
-            (algebra-program-add (algebra-program-subtract slope damping) force))
-          (algebra-program-gradient (algebra-program-element potential) q)
-          (algebra-program-gradient (algebra-program-element dissipation) v)
-          (mapcar #'algebra-program-element (cdr forces))))
-
-(defun $linmodel_program (scene gravity actions v pairs result)
-  "The record of M and f, of the accelerations (RESULT solved), or of the forces for given
-accelerations (inverse: PAIRS then has these, too). ACTIONS: [U, R, [Q_1, ..]]."
-  (destructuring-bind (q links bodies) (cdr scene)
-    (with-algebra-program
-      (let* ((a (linmodel-program-arithmetic))
-             (n (length (cdr q)))
-             (places (mapcar #'algebra-program-input (cdr q)))
-             (velocities (mapcar #'algebra-program-input (cdr v)))
-             (given (linmodel-given-forces (second actions) (third actions) (fourth actions)
-                                           places velocities))
-             (gravity (linmodel-lift-vector a gravity))
-             (inverse (eq result '$inverse))
-             (state (make-linmodel-state
-                     :names (cdr q)
-                     :velocities velocities
-                     :accelerations (if inverse
-                                        (loop for (nil inside) in (nthcdr n (cdr pairs))
-                                              collect (algebra-program-input inside))
-                                        (loop repeat n collect 0))))
-             (joints (linmodel-read-joints a links bodies state)))
-        (forms-program-record
-         q pairs
-         (ecase result
-           ($inverse
-            (list (cons '$forces
-                        (cons :list (mapcar #'algebra-program-subtract
-                                            (linmodel-bias-forces a joints state gravity n) given)))))
-           ($solved
-            (list (cons '$accelerations
-                        (cons :list (linmodel-solved a joints state gravity given n)))))
-           ($mass
-            (list (cons '|$m| (cons :matrix (linmodel-mass-rows a joints n)))
-                  (cons '$f
-                        (cons :list (linmodel-right-sides a joints state gravity given n)))))))))))
-
-(defun linmodel-right-sides (a joints state gravity given n)
-  (mapcar #'algebra-program-subtract given (linmodel-bias-forces a joints state gravity n)))
-
-(defun linmodel-solved (a joints state gravity given n)
-  (if (linmodel-articulated-p joints)
-      (linmodel-accelerations
-       a joints (linmodel-bias-loads a joints (linmodel-motions a joints state gravity)) given n)
-      (forms-program-solution (linmodel-mass-rows a joints n)
-                              (linmodel-right-sides a joints state gravity given n))))

@@ -15,9 +15,17 @@
 (core-public "Lagrangian" :kinds '("mechanical"))
 (core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description" '("form" $auto))
 
-(core-rule "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_free_equation_program"
-  "description" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
-  '("nonholonomic" ((mlist simp))) '("solved" nil) '("inverse" nil))
+(defparameter *linmodel-program-inputs*
+  '("description" ("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
+    ("nonholonomic" ((mlist simp))) ("laws" ((mlist simp)))))
+
+(apply #'core-rule "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_equation_program"
+       (append *linmodel-program-inputs* '(("solved" nil) ("inverse" nil))))
+(apply #'core-rule-given '("form" $program) "MassForm" '("mechanical")
+       "linmodel/equation_program" "linmodel_mass_program" *linmodel-program-inputs*)
+(apply #'core-rule-given '("form" $program) "LagrangeEquations" '("mechanical")
+       "linmodel/equation_program" "linmodel_lagrange_program"
+       (append *linmodel-program-inputs* '(("simplify" nil) ("expanded" nil) ("eliminate" nil))))
 
 ;;; Equations in quasi-velocities
 
