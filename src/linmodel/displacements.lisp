@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The momentum of all bodies along a small displacement of the whole system as one rigid body: a
-;;; turn w about a point, a shift v. With X = (w . v) of O_k carried into the axes of each body it is
+;;; turn w and a shift v. With X = (w . v) of O_k carried into the axes of each body it is
 ;;;     sum over bodies of (X, x_i) q_i' + (X, x_0) + h.w,
 ;;; x_i the twists and ( , ) the product of inertia.lisp: for w = e, v = 0 the moment K.e of the
 ;;; momenta about an axis through O_0, for w = 0, v = e the momentum along e.
@@ -13,10 +13,10 @@
 (defun linmodel-displaced (a link twist)
   "The displacement TWIST of the parent's point O, in the parent's axes, carried to LINK."
   (destructuring-bind (w . v) twist
-    (let ((turns (linmodel-link-turns a link)))
+    (let ((turns (linmodel-link-turns a link))
+          (arm (linmodel-cross a w (linmodel-link-joint a link))))
       (cons (linmodel-turned-by-all a turns w)
-            (linmodel-turned-by-all
-             a turns (linmodel-vector-plus a v (linmodel-cross a w (linmodel-link-joint a link))))))))
+            (linmodel-turned-by-all a turns (linmodel-vector-plus a v arm))))))
 
 (defun linmodel-momentum-along (a body displacement twists velocities)
   "The part of BODY: VELOCITIES begin with that of x_0, which is 1."
@@ -28,8 +28,9 @@
     (if momentum (linmodel-plus a sum (linmodel-dot a momentum (car displacement))) sum)))
 
 (defun linmodel-all-along (a links bodies twists velocities start)
-  (let ((displacements (linmodel-over-links
-                        links (lambda (link parent) (linmodel-displaced a link (or parent start)))))
+  (let ((displacements
+          (linmodel-over-links
+           links (lambda (link parent) (linmodel-displaced a link (or parent start)))))
         (sum 0))
     (dolist (body bodies sum)
       (let ((k (1- (linmodel-body-link body))))
@@ -47,4 +48,5 @@
        (linmodel-lower-vector
         a (loop for displacement in (cdr displacements)
                 for (w v) = (mapcar (lambda (x) (linmodel-lift-vector a x)) (cdr displacement))
-                collect (linmodel-all-along a (cdr links) bodies twists velocities (cons w v))))))))
+                for start = (cons w v)
+                collect (linmodel-all-along a (cdr links) bodies twists velocities start)))))))
