@@ -19,11 +19,14 @@
                   (lambda (condition) (archive-meets-p call condition))))
 
 (defun archive-meets-p (call condition)
-  "Whether the call or the archive gives the option CONDITION, or (option value) with this value."
-  (if (consp condition)
-      (eq (archive-option call (first condition) nil) (second condition))
-      (or (nth-value 1 (gethash condition (archive-call-given call)))
-          (nth-value 1 (archive-key-value call condition)))))
+  "Whether the call or the archive gives the option CONDITION, or (option value) with this value;
+:file: whether the system is a file."
+  (cond ((consp condition)
+         (eq (archive-option call (first condition) nil) (second condition)))
+        ((eq condition :file)
+         (and (archive-call-archive call) (archive-path (archive-call-archive call)) t))
+        (t (or (nth-value 1 (gethash condition (archive-call-given call)))
+               (nth-value 1 (archive-key-value call condition))))))
 
 (defun archive-input-name (input) (if (consp input) (car input) input))
 
@@ -68,7 +71,7 @@
 
 (defun archive-rule-sources (rule)
   "What a quantity by RULE depends on: the condition of the rule too."
-  (append (and (rule-given rule) (list (rule-given rule)))
+  (append (and (rule-given rule) (not (eq (rule-given rule) :file)) (list (rule-given rule)))
           (cond ((rule-same rule) (list (rule-same rule)))
                 ((rule-record rule) (list (rule-record rule)))
                 (t (rule-inputs rule)))))

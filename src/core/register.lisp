@@ -39,7 +39,7 @@ or :any."
 
 (defun core-rule-given (option name kinds part function &rest inputs)
   "The same where OPTION is given, in the call or as a key of the archive; where it is (option
-value), only with that value."
+value), only with that value; where it is :file, for systems that are files."
   (core-add-rule name (make-core-rule :kinds kinds :given option :part part :function (core-symbol function) :inputs inputs)))
 
 (defun core-rule-same-as (name kinds other &key given)
@@ -66,7 +66,7 @@ without $ inside."
     (if (and (plusp (length name)) (char= (char name 0) #\$)) (subseq name 1) name)))
 
 (defun core-rule-fits (rule kind given)
-  "Whether RULE serves an archive of KIND; GIVEN tells whether the call has an option, or (option value)."
+  "Whether RULE serves an archive of KIND; GIVEN tells whether the call has an option, or (option value); or :file."
   (and (or (eq (rule-kinds rule) :any) (member kind (rule-kinds rule) :test #'equal))
        (or (null (rule-given rule)) (funcall given (rule-given rule)))))
 

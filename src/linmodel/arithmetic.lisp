@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/size" "linmodel/polar"))
+  (core-require "algebra/normal" "algebra/collected" "linmodel/polar"))
 
 (defstruct linmodel-arithmetic
   lift lower add multiply sine cosine
@@ -78,7 +78,7 @@
 (defun linmodel-lowered-quotient (x)
   (if (eql x 0)
       0
-      (algebra-general-quotient (algebra-readable (car x)) (algebra-readable (cdr x)))))
+      (algebra-collected-quotient (algebra-readable (car x)) (algebra-readable (cdr x)))))
 
 ;;; Vectors are lists of three elements.
 

@@ -117,3 +117,12 @@ and tensors are those at the point BASE."
                                  dissipation (cdr forces) point))
         (forms-verdict "d/dt dL/dq' - dL/dq as quotients of differences of L in fixed axes"
                        found expected point)))))
+
+(defun $linmodel_is_lagrangian (function scene v gravity potential)
+  "Whether FUNCTION is T + U at a random point, U the weight's and POTENTIAL."
+  (let* ((point (forms-new-point t))
+         (found (catch 'forms-no-value (forms-fixed-value function point)))
+         (expected (catch 'forms-no-value
+                     (+ (funcall (linmodel-value-of scene (cdr v) gravity point t) point)
+                        (forms-fixed-value potential point)))))
+    (and found expected (not (forms-differ-p found expected)))))

@@ -37,6 +37,12 @@
                       (linmodel-lift-vector a given)
                       (linmodel-projected-loads a twists bodies motions n))))))
 
+(defun linmodel-residuals (a rows right accelerations)
+  "M q'' - f"
+  (loop for row in rows
+        for f in right
+        collect (linmodel-plus a (linmodel-row-sum a row accelerations) (linmodel-minus a f))))
+
 ;;; For Maxima.
 
 (defun $linmodel_projected_mass_form (scene gravity given velocities form)
@@ -48,3 +54,12 @@
        (list '(mlist simp)
              (cons '($matrix simp) (mapcar (lambda (row) (linmodel-lower-vector a row)) rows))
              (linmodel-lower-vector a right))))))
+
+(defun $linmodel_projected_equations (scene gravity given velocities accelerations form)
+  "[e_1, ..] of M q'' - f in the names of the VELOCITIES and ACCELERATIONS."
+  (linmodel-compute
+   form
+   (lambda (a)
+     (multiple-value-bind (rows right) (linmodel-projection a scene gravity given velocities)
+       (linmodel-lower-vector
+        a (linmodel-residuals a rows right (linmodel-lift-vector a accelerations)))))))

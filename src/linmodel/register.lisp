@@ -15,17 +15,42 @@
 (core-public "Lagrangian" :kinds '("mechanical"))
 (core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description" '("form" $auto))
 
+(core-rule-given '("form" $program) "KineticEnergy" '("mechanical")
+  "linmodel/energy_program" "linmodel_kinetic_program" "description" '("laws" ((mlist simp))))
+(core-rule-given '("form" $program) "ForceFunction" '("mechanical")
+  "linmodel/energy_program" "linmodel_force_program" "description" '("laws" ((mlist simp))))
+(core-rule-given '("form" $program) "Lagrangian" '("mechanical")
+  "linmodel/energy_program" "linmodel_lagrangian_program" "description" '("laws" ((mlist simp))))
+
 (defparameter *linmodel-program-inputs*
   '("description" ("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
     ("nonholonomic" ((mlist simp))) ("laws" ((mlist simp)))))
 
-(apply #'core-rule "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_equation_program"
-       (append *linmodel-program-inputs* '(("solved" nil) ("inverse" nil))))
+(dolist (option '(nil ("form" $program)))
+  (apply #'core-rule-given option "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_equation_program"
+         (append *linmodel-program-inputs* '(("solved" nil) ("inverse" nil)))))
 (apply #'core-rule-given '("form" $program) "MassForm" '("mechanical")
        "linmodel/equation_program" "linmodel_mass_program" *linmodel-program-inputs*)
 (apply #'core-rule-given '("form" $program) "LagrangeEquations" '("mechanical")
        "linmodel/equation_program" "linmodel_lagrange_program"
        (append *linmodel-program-inputs* '(("simplify" nil) ("expanded" nil) ("eliminate" nil))))
+
+;;; Equations by projection; a file has Lagrange's function as a step, which may be edited
+
+(defparameter *linmodel-mass-inputs* '("description" ("rayleigh" 0) ("forces" ((mlist simp)))))
+(defparameter *linmodel-lagrange-inputs*
+  (append *linmodel-mass-inputs*
+          '(("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp))) ("simplify" nil) ("expanded" nil)
+            ("eliminate" nil) ("form" $auto))))
+
+(apply #'core-rule "MassForm" '("mechanical") "linmodel/mass_form" "linmodel_mass_form"
+       (append *linmodel-mass-inputs* '(("form" $auto))))
+(apply #'core-rule-given :file "MassForm" '("mechanical") "linmodel/mass_form" "linmodel_mass_form_with"
+       "Lagrangian" (append *linmodel-mass-inputs* '(("form" $auto))))
+(apply #'core-rule "LagrangeEquations" '("mechanical") "linmodel/mass_form" "linmodel_lagrange_equations"
+       *linmodel-lagrange-inputs*)
+(apply #'core-rule-given :file "LagrangeEquations" '("mechanical") "linmodel/mass_form"
+       "linmodel_lagrange_equations_with" "Lagrangian" *linmodel-lagrange-inputs*)
 
 ;;; Equations in quasi-velocities
 

@@ -1,0 +1,85 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Polynomials written as a person collects them: every function of the angles once, with what it is
+;;; multiplied by,    l1*l2*(m2 + m3)*(sin(q1)*sin(q2) + cos(q1)*cos(q2)).
+;;; The angles being the lowest variables, a polynomial is a sum of monomials of the others times
+;;; polynomials in sines and cosines, its leaves; the monomials of leaves that are equal up to a
+;;; number are collected. Taken only where it is shorter than the expanded form.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/readable" "algebra/general" "algebra/contents"))
+
+(defun algebra-collected-quotient (n d)
+  "N/D, N collected where D is a number and it is shorter so."
+  (let ((collected (and (atom d) (algebra-collected n d))))
+    (if (and collected
+             (< (algebra-size collected) (algebra-expanded-size n)))
+        collected
+        (algebra-general-quotient n d))))
+
+(defun algebra-collected (p d)
+  "P over the number D."
+  (algebra-sum-of-products
+   (mapcar (lambda (group) (algebra-group-factors group d)) (algebra-groups-of-leaves p))))
+
+;;; Leaves.
+
+(defun algebra-map-leaves (function p)
+  "FUNCTION of the monomial, a polynomial, and the leaf, for each leaf of P."
+  (labels ((walk (p factors)
+             (if (or (atom p) (algebra-angle-variable-p (car p)))
+                 (funcall function factors p)
+                 (loop for (exponent coefficient) on (cdr p) by #'cddr
+                       do (walk coefficient (if (zerop exponent)
+                                                factors
+                                                (acons (car p) exponent factors)))))))
+    (walk p '())))
+
+(defun algebra-groups-of-leaves (p)
+  "A list of (leaf . coefficient), the leaves without numbers in common."
+  (let ((groups (make-hash-table :test #'equal)) (leaves '()))
+    (algebra-map-leaves
+     (lambda (monomial leaf)
+       (let* ((number (algebra-signed-content leaf))
+              (leaf (pquotient leaf number)))
+         (unless (gethash leaf groups) (push leaf leaves))
+         (push (ptimes number (algebra-monomial-polynomial monomial)) (gethash leaf groups))))
+     p)
+    (loop for leaf in (nreverse leaves)
+          collect (cons leaf (algebra-polynomial-sum (gethash leaf groups))))))
+
+(defun algebra-signed-content (p)
+  (let ((content (algebra-number-content p)))
+    (if (pminusp p) (- content) content)))
+
+;;; Expressions.
+
+(defun algebra-group-factors (group d)
+  "The number over D, the monomial, what is left of the coefficient, and the leaf, as expressions."
+  (destructuring-bind (leaf . coefficient) group
+    (let* ((number (algebra-signed-content coefficient))
+           (monomial (algebra-monomial-polynomial (algebra-monomial coefficient)))
+           (rest (pquotient (pquotient coefficient number) monomial)))
+      (remove 1 (list (div number d) (algebra-general monomial) (algebra-general rest)
+                      (algebra-general leaf))
+              :test #'eql))))
+
+(defun algebra-sum-of-products (groups)
+  (let ((terms (loop for factors in groups append (algebra-terms-of-product factors))))
+    (cond ((null terms) 0)
+          ((null (cdr terms)) (car terms))
+          (t (cons '(mplus simp) (sort terms #'algebra-term-before-p))))))
+
+(defun algebra-terms-of-product (factors)
+  (let ((product (muln factors nil)))
+    (if (mplusp product) (copy-list (cdr product)) (list product))))
+
+(defun algebra-term-before-p (x y)
+  "Maxima's order of the terms of a sum, which does not look at numbers in front."
+  (great (algebra-without-number y) (algebra-without-number x)))
+
+(defun algebra-without-number (term)
+  (cond ((not (and (mtimesp term) (mnump (cadr term)))) term)
+        ((cdddr term) (cons '(mtimes simp) (cddr term)))
+        (t (caddr term))))
