@@ -103,7 +103,7 @@ arrive as their values."
 
 (defparameter *archive-option-types*
   '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved" "matrices")
-    (:form "canonical, factored or program" "form")
+    (:form "auto, canonical, factored or program" "form")
     (:function "lagrange, routh or hamilton" "function")
     (:file "a file name in double quotes" "result"))
   "What the value of an option may be, and the options of which that holds; other values are looked
@@ -112,7 +112,7 @@ at where they are used.")
 (defun archive-option-fits (type value)
   (ecase type
     (:truth (member value '(nil t)))
-    (:form (member value '($canonical $factored $program)))
+    (:form (member value '($auto $canonical $factored $program)))
     (:function (member value '($lagrange $routh $hamilton)))
     (:file (stringp value))))
 
@@ -120,6 +120,23 @@ at where they are used.")
   (let ((row (find-if (lambda (row) (member option (cddr row) :test #'string=)) *archive-option-types*)))
     (unless (or (null row) (archive-option-fits (first row) value))
       (core-error "the option ~a is ~a, found ~a" option (second row) (core-words (list value))))))
+
+(defparameter *archive-program-form* '("form" $program))
+
+(defun archive-check-program-form (call)
+  "An error unless there is a program of what is called."
+  (let* ((name (core-public-name (archive-call-public call)))
+         (rule (core-find-rule name (archive-call-kind call)
+                               (lambda (condition) (equal condition *archive-program-form*)))))
+    (unless (and rule (equal (rule-given rule) *archive-program-form*))
+      (core-error "form = program is for ~{~a~^, ~}; this function has none"
+                  (archive-program-names)))))
+
+(defun archive-program-names ()
+  (sort (loop for name being the hash-keys of *core-rules* using (hash-value rules)
+              when (find *archive-program-form* rules :key #'rule-given :test #'equal)
+                collect name)
+        #'string<))
 
 (defun archive-overrulable-keys (kind)
   "Names of the keys of [system] that a call may overrule."
@@ -155,6 +172,8 @@ at where they are used.")
         (unless (member name known :test #'equal)
           (core-error "there is no option ~a; the options are ~{~a~^, ~}" name (sort (copy-list known) #'string<)))
         (archive-check-option name (caddr equation))
+        (when (and (string= name "form") (eq (caddr equation) '$program))
+          (archive-check-program-form call))
         (archive-give-option call name (caddr equation))))
     (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil))))
 

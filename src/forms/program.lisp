@@ -85,9 +85,27 @@
 (defun forms-checked-program (task outputs judge)
   "The record of OUTPUTS, shown to be right at a random point by the JUDGE."
   (forms-check-program task outputs judge)
+  (forms-program-record task outputs))
+
+(defun forms-program-record (task outputs)
   (algebra-rename-inputs (cons '(mlist) (forms-task-pairs task)))
   (algebra-program-record
    (append (forms-task-q task)
            (mapcar #'third (forms-task-pairs task))
            (and (eq (forms-task-result task) '$inverse) (forms-task-multipliers task)))
    outputs))
+
+(defun forms-function-program (task name element expected how)
+  "The record of one output, ELEMENT; EXPECTED is its value as a function of points, found otherwise."
+  (let ((point (forms-new-point t)))
+    (forms-verdict how
+                   (catch 'forms-no-value (first (forms-program-values (list element) point)))
+                   (catch 'forms-no-value (funcall expected point))
+                   point))
+  (forms-program-record task (list (cons name element))))
+
+(defun $forms_function_program (e name task)
+  "The record of NAME = E, an expression in names inside."
+  (with-algebra-program
+    (forms-function-program (forms-read-task task) name (algebra-program-element e)
+                            (forms-values-of e) "value of the program against that of the expression")))

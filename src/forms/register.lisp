@@ -122,8 +122,9 @@
   '(("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))
     ("laws" ((mlist simp)))))
 
-(apply #'core-rule "EquationProgram" :any "forms/equation_program" "forms_equation_program"
-       "Lagrangian" "coordinates" (append *forms-program-inputs* '(("solved" nil) ("inverse" nil))))
+(dolist (option '(nil ("form" $program)))
+  (apply #'core-rule-given option "EquationProgram" :any "forms/equation_program" "forms_equation_program"
+         "Lagrangian" "coordinates" (append *forms-program-inputs* '(("solved" nil) ("inverse" nil)))))
 (apply #'core-rule-given '("form" $program) "MassForm" :any "forms/equation_program" "forms_mass_program"
        "Lagrangian" "coordinates" *forms-program-inputs*)
 (apply #'core-rule-given '("form" $program) "LagrangeEquations" :any "forms/equation_program" "forms_lagrange_program"
