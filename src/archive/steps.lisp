@@ -12,7 +12,7 @@
   keys     ; keys of [system] the quantity depends on; "*" is the whole structure
   extras)  ; arguments, options and hand-edited results it depends on, as text
 
-(defstruct archive-step name value from options checks left-out)
+(defstruct archive-step name value from options form checks left-out)
 
 (defun archive-rule (call name)
   (core-find-rule name (archive-call-kind call)
@@ -207,11 +207,11 @@ or that this call only passes through."
 (defun archive-compute (call name rule)
   "Applies the rule's pure function to its inputs; a public step is noted for saving."
   (let* ((inputs (archive-inputs call rule))
-         (*core-checks* '()) (*core-left-out* '())
+         (*core-checks* '()) (*core-left-out* '()) (*core-level* '$canonical)
          (began (get-internal-real-time)))
     (core-progress "computing ~a" name)
     (let ((value (core-apply-rule rule inputs)))
-      (when (gethash name *core-publics*) (archive-note-step call name value))
+      (when (gethash name *core-publics*) (archive-note-step call name value (archive-form-taken call rule)))
       (archive-report-time call name began)
       value)))
 
@@ -239,11 +239,20 @@ or that this call only passes through."
                (/ (- (get-internal-real-time) began) (float internal-time-units-per-second 1d0))
                *core-left-out*)))
 
-(defun archive-note-step (call name value)
+(defun archive-form-taken (call rule)
+  "The form of what RULE gave, as text: the one asked for, or that to which the derivation came; nil
+where there is only one."
+  (let ((form (archive-value call "form" '$auto)))
+    (cond ((equal (rule-given rule) *archive-program-form*) "program")
+          ((notany (lambda (input) (equal (archive-input-name input) "form")) (rule-inputs rule)) nil)
+          (t (core-spelling (if (eq form '$auto) *core-level* form))))))
+
+(defun archive-note-step (call name value level)
   (when (and (archive-call-archive call) (archive-path (archive-call-archive call))
              (or (archive-option call "result" nil) (not (archive-keeps-section-p call name))))
     (push (make-archive-step :name name :value (archive-abbreviated call value)
                              :from (archive-digest-of call name) :options (archive-options-of call name)
+                             :form level
                              :checks (reverse *core-checks*) :left-out (reverse *core-left-out*))
           (archive-call-new call))))
 
@@ -254,7 +263,7 @@ or that this call only passes through."
                   (mapcar (lambda (step)
                             (list (archive-step-name step)
                                   :value (archive-step-value step) :from (archive-step-from step)
-                                  :options (archive-step-options step)
+                                  :options (archive-step-options step) :form (archive-step-form step)
                                   :checks (archive-step-checks step) :left-out (archive-step-left-out step)))
                           (reverse (archive-call-new call)))
                   (archive-option call "result" nil))))

@@ -10,6 +10,8 @@
   "Function of section and key: their place, such as \"pendulum.txt, line 14\", or nil.")
 (defvar *core-checks* nil "How the result was checked, newest first.")
 (defvar *core-left-out* nil "What the result leaves out, newest first.")
+(defvar *core-level* '$canonical
+  "The form of an answer where that is left to the derivation: factored once a part was too long.")
 (defvar *core-started* nil "Internal real time at which the call began.")
 (defvar *core-progress* t "Whether progress lines are wanted.")
 (defvar *core-warnings* nil "Warnings already given in this call.")
@@ -75,6 +77,10 @@
 (defun $core_checked (&rest items) (pushnew (core-words items) *core-checks* :test #'string=) '$done)
 
 (defun $core_left_out (&rest items) (pushnew (core-words items) *core-left-out* :test #'string=) '$done)
+
+(defun core-factored () (setq *core-level* '$factored))
+
+(defun $core_factored () (core-factored))
 
 (defun $core_path (name)
   "The path of a file of the repository."

@@ -29,7 +29,8 @@
     ($auto (let ((found (core-attempt (lambda ()
                                         (let ((*algebra-limit* *linmodel-moderate*))
                                           (linmodel-compute-canonical function))))))
-             (if found (car found) (funcall function (linmodel-general-arithmetic)))))))
+             (cond (found (car found))
+                   (t (core-factored) (funcall function (linmodel-general-arithmetic))))))))
 
 (defun linmodel-compute-canonical (function)
   (with-algebra-ring
