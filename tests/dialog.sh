@@ -81,6 +81,66 @@ expect 'a file is replaced after yes' $?
 grep -q 'force_function = k\*theta' added.txt && grep -q 'axes has 3 numbers' answer && grep -q '^axes = \[3, 1\]' added.txt
 expect 'an item is added by its key, and the description is tried before it is written' $?
 
+# a body, a rotor in it, a frame whose name is explained and refused once, a spring of an angle and one between points:
+# what makes no sense beside an answer is not asked
+carrier() {
+  cat <<'END'
+2
+[phi]
+[m > 0, l > 0, k > 0, J > 0, h, c > 0]
+.
+
+[3]
+[phi]
+
+
+[l, 0, 0]
+m
+.
+1
+[1]
+[chi]
+[l, 0, 0]
+
+
+m
+diag(J, 0, 0)
+
+
+
+momentum(h)
+?
+if
+arm
+
+
+[3]
+[1/2]
+.
+?
+2
+phi
+k
+
+c
+
+[1, arm]
+[[0, 0, 0], [0, 2*l, 0]]
+k
+l
+
+
+
+gyroscopic pendulum
+END
+}
+rm -f mechanical.txt
+{ carrier; echo; echo; } | ask 'Lagrangian()'
+grep -q '^rotor = momentum(h)' mechanical.txt && grep -q '^between = \[1, arm\]' mechanical.txt &&
+  grep -q '^\[result Lagrangian\]' mechanical.txt && grep -q 'frame.: axes without mass' answer
+expect 'a rotor, a frame and springs' $?
+rm -f mechanical.txt
+
 circuit() {
   cat <<'END'
 [L1 > 0, C1 > 0, R1 > 0]

@@ -84,7 +84,7 @@
   "Why KEY, which is absent, must be there, or nil: \"\", or the key that asks for it."
   (let ((default (archive-key-default key)))
     (cond ((eq default :required) "")
-          ((atom default) nil)
+          ((or (atom default) (eq (first default) :with)) nil)
           ((eq (first default) :when)
            (and (equal (archive-given-word group (second default)) (third default))
                 (format nil ", which ~a = ~a needs" (second default) (third default))))

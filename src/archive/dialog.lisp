@@ -128,6 +128,8 @@ that follow."
           ((atom default) :open)
           ((eq (first default) :when)
            (and (equal (archive-answered answers section (second default)) (third default)) :needed))
+          ((eq (first default) :with)
+           (and (archive-answered answers section (second default)) :open))
           (t (if (archive-answered answers section (second default)) nil :needed)))))
 
 (defun archive-ask-section (kind word section)
@@ -140,16 +142,29 @@ that follow."
             (cond ((eq text :rest) (setq rest t))
                   (text (push (make-archive-item :section section :key key :text text) answers)))))))))
 
-(defun archive-ask-count (question)
+(defun archive-ask-count (row)
+  "How many sections of the sort ROW there are."
   (loop
-    (let ((answer (archive-ask-line question)))
+    (let ((answer (archive-ask-line (format nil "Number of sections [~a k], ~a [0]" (first row) (fourth row)))))
       (cond ((string= answer "") (return 0))
             ((and (every #'digit-char-p answer) (< (length answer) 4)) (return (parse-integer answer)))
-            (t (archive-say "  Type a number, such as 0, 1 or 2."))))))
+            (t (archive-say "  [~a k]: ~a. Type how many there are, such as 1; Enter takes 0."
+                            (first row) (fourth row)))))))
 
-(defun archive-ask-names (question)
-  "Names, one after another, until an empty answer."
-  (loop for name = (archive-ask-line question) until (string= name "") collect name))
+(defun archive-ask-names (row)
+  "Names of the sections of the sort ROW, one after another, until an empty answer."
+  (let ((names '()))
+    (loop
+      (let ((name (archive-ask-line (format nil "Name of a [~a], ~a [Enter: no more]" (first row) (fourth row)))))
+        (cond ((string= name "") (return (nreverse names)))
+              ((member name names :test #'string=) (archive-say "  There is a [~a ~a] already." (first row) name))
+              ((archive-plain-name-p name) (push name names))
+              (t (archive-say "  [~a]: ~a. Type a name, such as ~a1; Enter ends."
+                              (first row) (fourth row) (first row))))))))
+
+(defun archive-plain-name-p (text)
+  (and (null (archive-trouble (lambda () (archive-parse-value text))))
+       (archive-symbol-p (archive-parse-value text))))
 
 (defun archive-ask-rows (section)
   "The rows of SECTION, one a line, until an empty answer."
@@ -174,10 +189,10 @@ that follow."
       (:one (list word))
       (:counted (loop for k from 1 to (parse-integer (archive-answered answers "system" "bodies"))
                       collect (format nil "~a ~d" word k)))
-      (:numbered (loop for k from 1 to (archive-ask-count (format nil "Number of sections [~a k], ~a [0]" word (fourth row)))
+      (:numbered (loop for k from 1 to (archive-ask-count row)
                        collect (format nil "~a ~d" word k)))
       (:named (mapcar (lambda (name) (format nil "~a ~a" word name))
-                      (archive-ask-names (format nil "Name of a [~a], ~a [Enter: no more]" word (fourth row))))))))
+                      (archive-ask-names row))))))
 
 (defun archive-ask-title (kind)
   (let* ((key (archive-find-key kind "top" "title"))

@@ -4,7 +4,7 @@
 ;;; doc/archive.md all come from here; plain data, no Maxima in it. A row is (name type default
 ;;; help question). The default is text as it would stand in the archive; nil where the key may be
 ;;; absent; :required; (:when key value) required if that key has that value; (:unless key)
-;;; required if that is absent.
+;;; required if that is absent; (:with key text) a default that makes sense beside that key only.
 
 (in-package :maxima)
 
@@ -82,7 +82,7 @@
      ("momenta" :assignments "[]"
       "names or values of momenta by coordinate, such as [phi = p]; some or all"
       "Momenta by coordinate")
-     ("constraints" :vanishing "[]" "holonomic constraints" "Holonomic constraints")
+     ("constraints" :vanishing "[]" "holonomic constraints, on coordinates and time" "Holonomic constraints")
      ("nonholonomic" :vanishing "[]"
       "constraints linear in the velocities" "Nonholonomic constraints"))
 
@@ -136,7 +136,8 @@
     (("body" ("mechanical"))
      ("parent" :parent "0" "body or frame that carries this body; 0 is the fixed axes" "Parent")
      ("axes" :axes "[]"
-      "axes of the turns in their order; [] for a body that only slides" "Axes of the turns")
+      "axes of the turns in their order, each carried by the turns before it; [] for a body that only slides"
+      "Axes of the turns")
      ("angles" :expressions "[]"
       "angles of the turns, right-handed, one for each axis" "Angles of the turns")
      ("joint" :vector "[0, 0, 0]" "from the parent's origin to this body's, in the parent's axes"
@@ -146,21 +147,27 @@
       "Velocity of the joint, in the parent's axes")
      ("centre" :vector "[0, 0, 0]"
       "centre of mass, in the body's axes" "Centre of mass, in the body's axes")
-     ("mass" :expression :required "mass" "Mass")
+     ("mass" :expression :required "mass of the body; 0 for axes that carry others" "Mass")
      ("inertia" :inertia nil
-      "inertia about the joint; a point mass at the centre unless given"
+      "tensor of inertia about the joint, in the body's axes; a point mass at the centre unless given"
       "Inertia about the joint")
      ("inertia_centre" :inertia nil
-      "inertia about the centre of mass, instead" "Inertia about the centre of mass")
+      "tensor of inertia about the centre of mass, instead" "Inertia about the centre of mass")
      ("momentum" :vector nil "constant relative momentum of rotors inside, in the body's axes"
       "Constant momentum of rotors inside")
-     ("own_spin" :spin nil "turn about a body axis that enters omega but not the axes" "Own spin")
-     ("rotor" :rotor nil "how the turn of a body with one axis is driven" "Rotor"))
+     ("own_spin" :spin nil
+      "turn of a body of revolution about an axis of its own, which the body's axes do not follow"
+      "Own spin")
+     ("rotor" :rotor nil
+      "for a body of one axis whose angle is no coordinate: of given momentum h, speed w or torque Q"
+      "Rotor"))
 
     (("frame" ("mechanical"))
      ("parent" :parent "0" "body or frame that carries these axes; 0 is the fixed axes" "Parent")
-     ("axes" :axes "[]" "axes of the turns in their order" "Axes of the turns")
-     ("angles" :expressions "[]" "angles of the turns, one for each axis" "Angles of the turns")
+     ("axes" :axes "[]" "axes of the turns in their order, each carried by the turns before it"
+      "Axes of the turns")
+     ("angles" :expressions "[]" "angles of the turns, right-handed, one for each axis"
+      "Angles of the turns")
      ("joint" :vector "[0, 0, 0]" "from the parent's origin to this one, in the parent's axes"
       "Position of the origin, in the parent's axes")
      ("velocity" :velocity "auto"
@@ -168,27 +175,27 @@
       "Velocity of the origin, in the parent's axes"))
 
     (("spring" ("mechanical"))
+     ("angle" :expression nil
+      "the angle it acts on, for a spring that turns" "Angle that it acts on, if it turns")
      ("between" :pair (:unless "angle")
       "the two bodies; 0 is the fixed axes" "Bodies that it joins")
-     ("points" :points "[[0, 0, 0], [0, 0, 0]]"
+     ("points" :points (:with "between" "[[0, 0, 0], [0, 0, 0]]")
       "its ends, each in the axes of its body" "Ends, in the bodies' axes")
-     ("angle" :expression nil
-      "the angle it acts on, for a spring that turns" "Angle that it acts on")
-     ("stiffness" :expression "0" "stiffness" "Stiffness")
-     ("length" :expression "0" "length at rest" "Length at rest")
-     ("rest" :expression "0" "angle at rest" "Angle at rest")
+     ("stiffness" :expression "0" "force over elongation, or torque over angle" "Stiffness")
+     ("length" :expression (:with "between" "0") "length of the unloaded spring" "Length at rest")
+     ("rest" :expression (:with "angle" "0") "angle of the unloaded spring" "Angle at rest")
      ("damping" :expression "0"
       "adds damping*(rate of length or angle)^2/2 to Rayleigh's function" "Damping"))
 
     (("force" ("mechanical"))
      ("body" :parent :required "the body it acts on" "Body that it acts on")
-     ("point" :vector "[0, 0, 0]" "its point, in the body's axes" "Point, in the body's axes")
-     ("vector" :vector :required "its components" "Components")
+     ("point" :vector "[0, 0, 0]" "where it acts, in the body's axes" "Point, in the body's axes")
+     ("vector" :vector :required "components of the force" "Components")
      ("axes" :parent "0"
       "the axes of its components: 0, a body, a frame" "Axes of its components"))
     (("torque" ("mechanical"))
      ("body" :parent :required "the body it acts on" "Body that it acts on")
-     ("vector" :vector :required "its components" "Components")
+     ("vector" :vector :required "components of the torque" "Components")
      ("axes" :parent "0"
       "the axes of its components: 0, a body, a frame" "Axes of its components"))))
 
@@ -222,7 +229,9 @@ asked."
 
 (defun archive-default (key)
   "The default of KEY as text, or nil."
-  (and (stringp (archive-key-default key)) (archive-key-default key)))
+  (let ((default (archive-key-default key)))
+    (cond ((stringp default) default)
+          ((and (consp default) (eq (first default) :with)) (third default)))))
 
 (defun archive-overrulable-p (key)
   "Whether an option of a call may overrule KEY: all of [system] but the count of sections."
@@ -264,6 +273,8 @@ asked."
           ((stringp default) (format nil "`~a`" default))
           ((eq (first default) :when)
            (format nil "required if `~a = ~a`" (second default) (third default)))
+          ((eq (first default) :with)
+           (format nil "`~a`, beside `~a`" (third default) (second default)))
           (t (format nil "required without `~a`" (second default))))))
 
 (defun archive-print-keys-table (stream)

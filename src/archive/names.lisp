@@ -145,3 +145,34 @@ brings."
 (defun archive-facts (description)
   "A list of the relations of DESCRIPTION's parameters, as `assume' takes them."
   (remove-if-not #'archive-relation-p (cdr ($core_get description '$parameters '((mlist))))))
+
+;; Names of what moves: they are no parameters and have no fixed value
+
+(defun archive-row-own-state (row)
+  "The state that the row of an inductor or a capacitor names, in a list."
+  (let ((fields (archive-row-fields row)))
+    (and (member (third fields) '(|$l| |$c|))
+         (remove-if-not #'archive-symbol-p (nthcdr (1+ *archive-row-value-field*) fields)))))
+
+(defun archive-moving-names (description)
+  "((name . what it is) ..)"
+  (flet ((called (what names) (mapcar (lambda (name) (cons name what)) names))
+         (of-key (key) (archive-used-names ($core_get description key '((mlist))))))
+    (append (called "a coordinate" (of-key '$coordinates))
+            (called "a variable" (of-key '$variables))
+            (called "the angle of a rotor" (archive-rotor-angles description))
+            (called "the state of a branch"
+                    (loop for row in (cdr ($core_get description '$branches '((mlist))))
+                          append (archive-row-own-state row))))))
+
+(defun archive-check-parameters (description)
+  (let ((parameters (archive-fact-names ($core_get description '$parameters '((mlist)))))
+        (fixed (archive-lefts ($core_get description '$values '((mlist))))))
+    (loop for (name . what) in (archive-moving-names description)
+          do (when (member name parameters)
+               (core-fault "system" '$parameters "~a is both ~a and a parameter"
+                           (core-spelling name) what))
+             (when (member name fixed)
+               (core-fault "system" '$values
+                           "~a is ~a and has no fixed value; that at the start belongs into start"
+                           (core-spelling name) what)))))
