@@ -8,20 +8,31 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/readable" "algebra/general" "algebra/contents"))
+  (core-require "algebra/normal" "algebra/contents"))
+
+(defun $algebra_collected (e)
+  "The canonical form of E, collected."
+  (algebra-map-bags #'algebra-collected-form e))
+
+(defun algebra-collected-form (e)
+  (if (atom e)
+      e
+      (with-algebra-ring
+        (let ((quotient (algebra-normal-quotient e)))
+          (algebra-collected-quotient (algebra-readable (car quotient))
+                                      (algebra-readable (cdr quotient)))))))
 
 (defun algebra-collected-quotient (n d)
   "N/D, N collected where D is a number and it is shorter so."
-  (let ((collected (and (atom d) (algebra-collected n d))))
-    (if (and collected
-             (< (algebra-size collected) (algebra-expanded-size n)))
-        collected
+  (let ((groups (and (atom d) (mapcar #'algebra-group-factors (algebra-groups-of-leaves n)))))
+    (if (and groups (< (algebra-size-of-groups groups) (algebra-expanded-size n)))
+        (algebra-sum-of-products (mapcar (lambda (group) (algebra-group-expression group d)) groups))
         (algebra-general-quotient n d))))
 
-(defun algebra-collected (p d)
-  "P over the number D."
-  (algebra-sum-of-products
-   (mapcar (lambda (group) (algebra-group-factors group d)) (algebra-groups-of-leaves p))))
+(defun algebra-size-of-groups (groups)
+  (loop for (nil . factors) in groups
+        sum (loop for factor in factors
+                  unless (eql factor 1) sum (algebra-expanded-size factor))))
 
 ;;; Leaves.
 
@@ -55,15 +66,16 @@
 
 ;;; Expressions.
 
-(defun algebra-group-factors (group d)
-  "The number over D, the monomial, what is left of the coefficient, and the leaf, as expressions."
+(defun algebra-group-factors (group)
+  "The number, the monomial, what is left of the coefficient, and the leaf."
   (destructuring-bind (leaf . coefficient) group
-    (let* ((number (algebra-signed-content coefficient))
-           (monomial (algebra-monomial-polynomial (algebra-monomial coefficient)))
-           (rest (pquotient (pquotient coefficient number) monomial)))
-      (remove 1 (list (div number d) (algebra-general monomial) (algebra-general rest)
-                      (algebra-general leaf))
-              :test #'eql))))
+    (let ((number (algebra-signed-content coefficient))
+          (monomial (algebra-monomial-polynomial (algebra-monomial coefficient))))
+      (list number monomial (pquotient (pquotient coefficient number) monomial) leaf))))
+
+(defun algebra-group-expression (factors d)
+  "The list of expressions of the FACTORS that are not 1, the number over D."
+  (remove 1 (cons (div (car factors) d) (mapcar #'algebra-general (cdr factors))) :test #'eql))
 
 (defun algebra-sum-of-products (groups)
   (let ((terms (loop for factors in groups append (algebra-terms-of-product factors))))

@@ -137,23 +137,31 @@
 
 ;;; Loads.
 
-(defun linmodel-body-load (a body motion)
+(defun linmodel-centre-acceleration (a body motion)
+  "a + e x c + w x (w x c)"
   (destructuring-bind (w e acceleration) motion
-    (flet ((plus (u v) (linmodel-vector-plus a u v)) (cross (u v) (linmodel-cross a u v))
-           (tensor-times (tensor v) (if tensor (linmodel-matrix-times a tensor v) (list 0 0 0))))
-      (let* ((m (linmodel-body-mass body)) (c (linmodel-body-centre body))
-             (about-joint (linmodel-body-joint-inertia body))
-             (tensor (or about-joint (linmodel-body-centre-inertia body)))
-             (force (linmodel-vector-times
-                     a m (plus acceleration (plus (cross e c) (cross w (cross w c))))))
-             (spin (plus (tensor-times tensor w) (or (linmodel-body-momentum body) (list 0 0 0))))
-             (arm (if about-joint
-                      (linmodel-vector-times a m (cross c acceleration))
-                      (cross c force))))
-        (cons (plus (plus (tensor-times tensor e) (cross w spin)) arm) force)))))
+    (flet ((plus (u v) (linmodel-vector-plus a u v)) (cross (u v) (linmodel-cross a u v)))
+      (let ((c (linmodel-body-centre body)))
+        (plus acceleration (plus (cross e c) (cross w (cross w c))))))))
+
+(defun linmodel-turning-moment (a body motion)
+  "Theta e + w x (Theta w + h)"
+  (destructuring-bind (w e acceleration) motion
+    (declare (ignore acceleration))
+    (let ((tensor (or (linmodel-body-joint-inertia body) (linmodel-body-centre-inertia body)))
+          (momentum (linmodel-body-momentum body)))
+      (flet ((tensor-times (v) (if tensor (linmodel-matrix-times a tensor v) (list 0 0 0))))
+        (linmodel-vector-plus
+         a (tensor-times e)
+         (linmodel-cross a w (linmodel-vector-plus a (tensor-times w) (or momentum (list 0 0 0)))))))))
+
+(defun linmodel-body-load (a body motion)
+  (let* ((m (linmodel-body-mass body)) (c (linmodel-body-centre body))
+         (force (linmodel-vector-times a m (linmodel-centre-acceleration a body motion)))
+         (arm (if (linmodel-body-joint-inertia body)
+                  (linmodel-vector-times a m (linmodel-cross a c (third motion)))
+                  (linmodel-cross a c force))))
+    (cons (linmodel-vector-plus a (linmodel-turning-moment a body motion) arm) force)))
 
 (defun linmodel-vector-times (a x vector)
   (mapcar (lambda (component) (linmodel-times a x component)) vector))
-
-(defun linmodel-load-along (a twist load)
-  (linmodel-plus a (linmodel-dot a (car twist) (car load)) (linmodel-dot a (cdr twist) (cdr load))))

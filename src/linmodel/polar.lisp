@@ -78,14 +78,16 @@
   (if (or (eql x 0) (eql y 0)) 0 (linmodel-product x y)))
 
 (defun linmodel-plane-product (x y v w)
-  "X*V + Y*W, by one polar angle where each of (X, Y), (V, W) has one; else nil."
-  (let ((one (linmodel-polar x y)) (other (linmodel-polar v w)))
-    (cond ((or (null one) (null other)) 0)
-          ((or (cdr one) (cdr other)) nil)
-          (t (linmodel-polar-product (car one) (car other))))))
+  "X*V + Y*W by polar angles where (X, Y) or (V, W) has one only; else nil."
+  (let ((first (linmodel-polar x y)) (second (linmodel-polar v w)) (sum 0))
+    (unless (and (cdr first) (cdr second))
+      (dolist (one first sum)
+        (dolist (other second)
+          (setq sum (add sum (linmodel-polar-product one other))))))))
 
 (defun linmodel-polar-product (one other)
   (destructuring-bind ((u p r) (z q s)) (list one other)
     (let ((angle (sub u z)))
-      (add (mul (add (mul p q) (mul r s)) (linmodel-cosine angle))
-           (mul (sub (mul r q) (mul p s)) (linmodel-sine angle))))))
+      (flet ((times (x y) (linmodel-product-or-0 x y)))
+        (add (times (add (times p q) (times r s)) (linmodel-cosine angle))
+             (times (sub (times r q) (times p s)) (linmodel-sine angle)))))))

@@ -30,6 +30,9 @@
     (cons (linmodel-vector-plus a moment (linmodel-cross a (linmodel-joint-place joint) force))
           force)))
 
+(defun linmodel-load-along (a twist load)
+  (linmodel-plus a (linmodel-dot a (car twist) (car load)) (linmodel-dot a (cdr twist) (cdr load))))
+
 (defun linmodel-no-load () (cons (list 0 0 0) (list 0 0 0)))
 
 (defun linmodel-own-load (a joint motion)

@@ -1,9 +1,11 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; M q'' = f by projection on the partial velocities, without a derivative of L: x_j = (w_j . v_j)
-;;; being the twists of a body and (N . F) the load that gives it its bias acceleration,
-;;;     M_ij = sum over bodies of (x_i, x_j),   f_j = given_j - sum (w_j.N + v_j.F),
-;;; (x, y) as in inertia.lisp, given_j the forces that no constant field gives: dU/dq - dR/dq' + Q.
-;;; This is Kane's form; a constant field enters as an acceleration of the fixed axes.
+;;; M q'' = f by projection on the partial velocities, without a derivative of L: for the twists
+;;; x_j = (w_j . v_j) of a body, its bias accelerations e, a (of O_k), a_C and its mass m
+;;;     M_ij = sum over bodies of (x_i, x_j),
+;;;     f_j = given_j - sum over bodies of (m u_j.a_C + w_j.(Theta e + w x (Theta w + h))),
+;;; (x, y) as in inertia.lisp, u_j = v_j + w_j x c with Theta about the centre of mass; for Theta about O_k
+;;; u_j.a_C is v_j.a_C + (w_j x c).a. given_j are the forces that no constant field gives,
+;;; dU/dq - dR/dq' + Q; a constant field enters as an acceleration of the fixed axes.
 
 (in-package :maxima)
 
@@ -11,13 +13,31 @@
   (core-require "linmodel/motions"))
 
 (defun linmodel-projected-loads (a twists bodies motions n)
-  "The list of sum (w_j.N + v_j.F), j from 1 to N."
+  "The list of what the bodies take of the forces, j from 1 to N."
   (let ((found (make-array (1+ n) :initial-element 0)))
     (dolist (body bodies (cdr (coerce found 'list)))
-      (let ((load (linmodel-body-load a body (aref motions (linmodel-body-link body)))))
+      (let* ((motion (aref motions (linmodel-body-link body)))
+             (centre (linmodel-centre-acceleration a body motion))
+             (moment (linmodel-turning-moment a body motion)))
         (loop for (j . twist) in (nth (1- (linmodel-body-link body)) twists)
               do (setf (aref found j)
-                       (linmodel-plus a (aref found j) (linmodel-load-along a twist load))))))))
+                       (linmodel-sum a (aref found j)
+                                     (linmodel-times a (linmodel-body-mass body)
+                                                     (linmodel-along-centre a body twist centre motion))
+                                     (linmodel-dot a (car twist) moment))))))))
+
+(defun linmodel-along-centre (a body twist centre motion)
+  "u_j.a_C, CENTRE being a_C"
+  (if (linmodel-body-joint-inertia body)
+      (linmodel-plus a (linmodel-dot a (cdr twist) centre)
+                     (linmodel-dot a (linmodel-cross a (car twist) (linmodel-body-centre body))
+                                   (third motion)))
+      (linmodel-dot a (linmodel-centre-velocity a body twist) centre)))
+
+(defun linmodel-sum (a &rest terms)
+  (let ((sum 0))
+    (dolist (term terms sum)
+      (setq sum (linmodel-plus a sum term)))))
 
 (defun linmodel-projection (a scene gravity given velocities)
   "Rows of M and list of f as elements; the SCENE is [coordinates, links, bodies]."
