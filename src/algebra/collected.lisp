@@ -69,9 +69,18 @@
 (defun algebra-group-factors (group)
   "The number, the monomial, what is left of the coefficient, and the leaf."
   (destructuring-bind (leaf . coefficient) group
-    (let ((number (algebra-signed-content coefficient))
-          (monomial (algebra-monomial-polynomial (algebra-monomial coefficient))))
-      (list number monomial (pquotient (pquotient coefficient number) monomial) leaf))))
+    (let* ((number (algebra-signed-content coefficient))
+           (monomial (algebra-monomial-polynomial (algebra-monomial coefficient)))
+           (rest (pquotient (pquotient coefficient number) monomial)))
+      (if (and (minusp number) (algebra-mixed-signs-p rest))
+          (list (- number) monomial (pminus rest) leaf)
+          (list number monomial rest leaf)))))
+
+(defun algebra-mixed-signs-p (p)
+  "Whether P, whose first coefficient is positive, has a negative one."
+  (if (atom p)
+      (minusp p)
+      (loop for (nil coefficient) on (cdr p) by #'cddr thereis (algebra-mixed-signs-p coefficient))))
 
 (defun algebra-group-expression (factors d)
   "The list of expressions of the FACTORS that are not 1, the number over D."
