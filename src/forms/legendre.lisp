@@ -28,11 +28,17 @@
     ($canonical (let ((*algebra-advice* "take form = factored"))
                   (forms-canonical-form rows b)))
     ($factored (forms-nested-form rows b))
-    ($auto (let ((found (catch 'algebra-too-large
-                          (let ((*algebra-may-give-up* t) (*algebra-limit* 60000))
-                            (forms-canonical-form rows b)))))
-             (cond ((eq found 'too-large) (core-factored) (forms-nested-form rows b))
-                   (t found))))))
+    ($auto (or (forms-moderate-form rows b)
+               (progn (core-factored) (forms-nested-form rows b))))))
+
+(defun forms-moderate-form (rows b)
+  "The canonical form; nil where it is long and the other would be much shorter."
+  (let ((found (catch 'algebra-too-large
+                 (let ((*algebra-may-give-up* t) (*algebra-limit* 60000))
+                   (forms-canonical-form rows b)))))
+    (unless (or (eq found 'too-large)
+                (> (algebra-size found) (max 20000 (* 4 (forms-nested-size rows b)))))
+      found)))
 
 ;;; Blocks: indices that products join.
 
@@ -91,19 +97,24 @@
       #'minor)))
 
 (defun forms-nested-form (rows b)
-  (let* ((*algebra-advice* "take EquationProgram, in which nothing is repeated")
-         (n (length rows))
-         (entries (make-array (list n n) :initial-contents rows)))
-    (algebra-guard (forms-quotient-of-minors
-                    n (lambda (i j) (let ((e (aref entries i j)))
-                                      (if (eql e 0) 0 (algebra-size e))))
-                    (mapcar #'algebra-size b)
-                    (lambda (x y) (+ x y))
-                    (lambda (&rest sizes) (apply #'+ (mapcar #'abs sizes)))
-                    (lambda (x y) (+ x y)))
-                   "this quadratic form in the momenta")
-    (forms-quotient-of-minors n (lambda (i j) (aref entries i j)) b #'add #'mul
+  (let ((*algebra-advice* "take EquationProgram, in which nothing is repeated")
+        (entries (forms-entries rows)))
+    (algebra-guard (forms-nested-size rows b) "this quadratic form in the momenta")
+    (forms-quotient-of-minors (length rows) (lambda (i j) (aref entries i j)) b #'add #'mul
                               (lambda (x y) (div x (mul 2 y))))))
+
+(defun forms-nested-size (rows b)
+  (let ((entries (forms-entries rows)))
+    (forms-quotient-of-minors (length rows)
+                              (lambda (i j) (let ((e (aref entries i j)))
+                                              (if (eql e 0) 0 (algebra-size e))))
+                              (mapcar #'algebra-size b)
+                              (lambda (x y) (+ x y))
+                              (lambda (&rest sizes) (apply #'+ (mapcar #'abs sizes)))
+                              (lambda (x y) (+ x y)))))
+
+(defun forms-entries (rows)
+  (make-array (list (length rows) (length rows)) :initial-contents rows))
 
 (defun forms-quotient-of-minors (n entry b add multiply over)
   "sum b_i b_j C_ij OVER the determinant, in the arithmetic of ADD and MULTIPLY."
