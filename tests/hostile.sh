@@ -40,6 +40,8 @@ wait
 
 check "the sessions reach their end" "$(calls | wc -l) $(grep -c '^== ' hostile/answers)" \
   "$(grep -c '^== ' clean/answers) $(grep -c '^== ' clean/answers)"
+check "the archives are read without warnings" \
+  "$(grep -h 'warning: free symbols\|unknown key\|unknown section' clean/answers | sort -u)" ""
 number=0
 calls >calls
 while read -r call; do

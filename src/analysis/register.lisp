@@ -56,7 +56,7 @@
 (core-rule "Equilibria" *analysis-states* "analysis/equilibria" "analysis_equilibria"
   "state_equations" *analysis-variables* *analysis-unknowns* *analysis-where*
   *analysis-laws*)
-(core-rule "Equilibria" *analysis-motions* "analysis/equilibria" "analysis_equilibria"
+(core-rule "Equilibria" *analysis-motions* "analysis/equilibria" "analysis_equilibria_motion"
   "LagrangeEquations" "coordinates" *analysis-unknowns* *analysis-where*
   *analysis-laws*)
 
