@@ -26,6 +26,21 @@
 (defun $algebra_size (e)
   (algebra-size e))
 
+(defun algebra-written-size (e)
+  "The number of nodes of E written out, what is shared in memory counted every time."
+  (let ((sizes (make-hash-table :test #'eq)))
+    (labels ((size (e)
+               (if (atom e)
+                   1
+                   (or (gethash e sizes)
+                       (setf (gethash e sizes) (1+ (loop for part in (cdr e) sum (size part))))))))
+      (size e))))
+
+(defun algebra-guard-written (e what advice)
+  "E, unless it would be too long to write: some five nodes make a term."
+  (algebra-guard (floor (algebra-written-size e) 5) what advice)
+  e)
+
 (defun algebra-guard (predicted what &optional (advice *algebra-advice*))
   (when (> predicted *algebra-limit*)
     (when *algebra-may-give-up* (throw 'algebra-too-large 'too-large))

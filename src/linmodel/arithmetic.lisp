@@ -13,6 +13,7 @@
 
 (defstruct linmodel-arithmetic
   lift lower add multiply sine cosine
+  multiplies-out ; whether products of sums become sums
   (size (constantly 0))
   turn      ; of (x y angle): the components in axes turned by an angle, where sums are not enough
   product)  ; of (x y v w): x*v + y*w, or nil
@@ -23,14 +24,18 @@
 (defun linmodel-compute (form function)
   "FUNCTION of the arithmetic for FORM; auto is canonical where that is short."
   (ecase form
-    ($factored (funcall function (linmodel-general-arithmetic)))
+    ($factored (linmodel-compute-factored function))
     ($canonical (let ((*algebra-advice* "take form = factored"))
                   (linmodel-compute-canonical function)))
     ($auto (let ((found (core-attempt (lambda ()
                                         (let ((*algebra-limit* *linmodel-moderate*))
                                           (linmodel-compute-canonical function))))))
              (cond (found (car found))
-                   (t (core-factored) (funcall function (linmodel-general-arithmetic))))))))
+                   (t (core-factored) (linmodel-compute-factored function)))))))
+
+(defun linmodel-compute-factored (function)
+  (algebra-guard-written (funcall function (linmodel-general-arithmetic))
+                         "the factored form" "take EquationProgram, which is a program"))
 
 (defun linmodel-compute-canonical (function)
   (with-algebra-ring
@@ -55,6 +60,7 @@
   (flet ((scan (e) (if (eql e 0) 0 (progn (algebra-scan e) 1))))
     (make-linmodel-arithmetic
      :lift #'scan
+     :multiplies-out t
      :lower #'identity
      :add (lambda (x y) (declare (ignore x y)) 1)
      :multiply (lambda (x y) (declare (ignore x y)) 1)
@@ -66,6 +72,7 @@
   (flet ((lift (e) (linmodel-element (algebra-cancel (algebra-evaluate (algebra-scan e))))))
     (make-linmodel-arithmetic
      :lift #'lift
+     :multiplies-out t
      :lower #'linmodel-lowered-quotient
      :add (lambda (x y) (linmodel-element (ratplus x y)))
      :multiply (lambda (x y) (linmodel-element (algebra-cancel (algebra-product (list x y)))))

@@ -85,18 +85,6 @@
         (linmodel-add-body a form body body-twists)
         (when momentum (linmodel-add-momentum a form momentum body-twists))))))
 
-(defun linmodel-form-at (a form velocities)
-  "sum of (x_i, x_j) v_i v_j/2 over all i and j."
-  (let ((sum 0) (n (length velocities)) (half (linmodel-lift a '((rat simp) 1 2))))
-    (loop for i below n
-          for v in velocities
-          do (loop for j from i below n
-                   for w in (nthcdr i velocities)
-                   for product = (linmodel-times a (aref form i j) (linmodel-times a v w))
-                   do (when (= i j) (setq product (linmodel-times a half product)))
-                      (setq sum (linmodel-plus a sum product))))
-    sum))
-
 ;;; For Maxima.
 
 (defun $linmodel_inertia_form (links bodies n form)
@@ -110,14 +98,3 @@
                    collect (linmodel-lower-vector
                             a (loop for j from 0 to n
                                     collect (aref products (min i j) (max i j))))))))))
-
-(defun $linmodel_energy (links bodies velocities form)
-  "[T, true where it has terms of less than the second degree in the VELOCITIES [1, v_1, ..]]."
-  (linmodel-compute
-   form
-   (lambda (a)
-     (let ((products (linmodel-inertia-form a links bodies (1- (length (cdr velocities)))))
-           (lifted (linmodel-lift-vector a velocities)))
-       (list '(mlist simp)
-             (funcall (linmodel-arithmetic-lower a) (linmodel-form-at a products lifted))
-             (loop for j below (length lifted) thereis (not (eql 0 (aref products 0 j)))))))))
