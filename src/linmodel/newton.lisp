@@ -77,7 +77,8 @@
 ;;; For Maxima.
 
 (defun $linmodel_newtonian (links bodies centre first-link form)
-  "U of the BODIES, tensors about O_k; CENTRE: [nu, distance, direction]; FIRST-LINK: of body 1."
+  "U of the BODIES, tensors about O_k; CENTRE: [nu, distance, direction]; FIRST-LINK: of
+body 1, 0 where it is none of the LINKS."
   (destructuring-bind (nu distance direction) (cdr centre)
     (linmodel-compute
      form

@@ -31,7 +31,8 @@
 (defun linmodel-turned-back (a turns vector)
   (dolist (turn (reverse turns) vector)
     (let ((back (copy-linmodel-turn turn)))
-      (setf (linmodel-turn-sine back) (linmodel-minus a (linmodel-turn-sine turn)))
+      (setf (linmodel-turn-sine back) (linmodel-minus a (linmodel-turn-sine turn))
+            (linmodel-turn-angle back) (neg (linmodel-turn-angle turn)))
       (setq vector (linmodel-turned a back vector)))))
 
 (defun linmodel-add-load (a links all-twists load forces)
