@@ -104,6 +104,9 @@
         ((eql y 0) x)
         (t (funcall (linmodel-arithmetic-add a) x y))))
 
+(defun linmodel-sum (a &rest terms)
+  (reduce (lambda (x y) (linmodel-plus a x y)) terms :initial-value 0))
+
 (defun linmodel-times (a x y)
   (if (or (eql x 0) (eql y 0)) 0 (funcall (linmodel-arithmetic-multiply a) x y)))
 

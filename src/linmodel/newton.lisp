@@ -14,11 +14,6 @@
 (defun linmodel-scaled (a x vector)
   (mapcar (lambda (component) (linmodel-times a x component)) vector))
 
-(defun linmodel-sum (a &rest terms)
-  (let ((sum 0))
-    (dolist (term terms sum)
-      (setq sum (linmodel-plus a sum term)))))
-
 (defun linmodel-attraction (a body beta place factors)
   "The force function of BODY, its tensor about O_k; FACTORS are nu/r, -nu/r^2 and nu/(2 r^3)."
   (destructuring-bind (zeroth first-order second-order) factors

@@ -34,11 +34,6 @@
                                    (third motion)))
       (linmodel-dot a (linmodel-centre-velocity a body twist) centre)))
 
-(defun linmodel-sum (a &rest terms)
-  (let ((sum 0))
-    (dolist (term terms sum)
-      (setq sum (linmodel-plus a sum term)))))
-
 (defun linmodel-projection (a scene gravity given velocities)
   "Rows of M and list of f as elements; the SCENE is [coordinates, links, bodies]."
   (destructuring-bind (q links bodies) (cdr scene)
