@@ -88,16 +88,19 @@
 
     (("system" ("circuit"))
      ("sign" :sign "passive"
-      "sign convention of the branches; a graph implies generator" "Sign convention")
+      "passive: a positive resistance takes energy; generator: it feeds energy; a graph implies generator"
+      "Sign convention")
      ("graph" :graph nil
       "the branches as a list of pairs of nodes, instead of [branches]" "Graph as a list")
      ("states" :states "[]"
       "names of currents and voltages, by label" "Names of states, by label")
-     ("potential" :expression nil "a given mixed potential" "Mixed potential, if it is given")
+     ("potential" :expression nil
+      "mixed potential P(i, u), if it is not to be found from the branches"
+      "Mixed potential, if it is given")
      ("datum" :node nil "node of zero potential; the first node of the first branch unless given"
       "Node of zero potential")
      ("tree" :names nil
-      "labels of the branches of the tree, if the user chooses it"
+      "labels of the branches of the proper tree, such as [C1, C2]; found unless given"
       "Labels of the tree's branches"))
 
     (("system" ("equations"))
