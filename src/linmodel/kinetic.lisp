@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The kinetic energy as one expression. Canonical, the sum of (x_i, x_j) q_i' q_j'/2 of inertia.lisp;
-;;; factored, the sum of (x, x)/2 over the bodies, x = (w . v) the velocities of each as sums, which
-;;; is shorter by far: n bodies with two angles each have some 3^n terms instead of 6^n.
+;;; The kinetic energy as one expression: by pairs of velocities, the sum of (x_i, x_j) q_i' q_j'/2 of
+;;; inertia.lisp, or by bodies, the sum of (x, x)/2, x = (w . v) the velocities of each as sums. In space
+;;; the latter is shorter by far where nothing is multiplied out: n bodies with two angles each have
+;;; some 3^n terms instead of 6^n. In the plane the former has one cosine for each pair of links.
 
 (in-package :maxima)
 
@@ -68,6 +69,12 @@
             thereis (notevery (lambda (row) (eql 0 (second row)))
                               (append (mapcar #'fourth (cdr (fourth link))) (cdr (sixth link)))))))
 
+(defun linmodel-by-pairs-p (a links)
+  "Whether T is written by pairs: canonical, or all LINKS turn about one axis."
+  (or (linmodel-arithmetic-multiplies-out a)
+      (let ((axes (loop for link in (cdr links) append (mapcar #'second (cdr (fourth link))))))
+        (every (lambda (axis) (eql axis (first axes))) axes))))
+
 ;;; For Maxima.
 
 (defun $linmodel_energy (scene velocities form)
@@ -79,7 +86,7 @@
            (lambda (a)
              (let ((velocities (linmodel-lift-vector a (cons '(mlist) (cons 1 (cdr velocities))))))
                (funcall (linmodel-arithmetic-lower a)
-                        (if (linmodel-arithmetic-multiplies-out a)
+                        (if (linmodel-by-pairs-p a links)
                             (linmodel-energy-of-pairs a links bodies velocities)
                             (linmodel-energy-of-bodies a links bodies (cdr q) velocities))))))
           (linmodel-moves-by-itself-p links bodies))))
