@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # CPU seconds over n; called by bench/peers/run, which sets the folder `results`.
-set terminal pngcairo size 1100,480
-set output results."/bench.png"
+set terminal svg size 1100,480 dynamic background "white"
+set output results."/bench.svg"
 set logscale y
 set format y "10^{%T}"
 set grid
