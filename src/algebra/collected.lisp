@@ -17,10 +17,11 @@
 (defun algebra-collected-form (e)
   (if (atom e)
       e
-      (with-algebra-ring
-        (let ((quotient (algebra-normal-quotient e)))
-          (algebra-collected-quotient (algebra-readable (car quotient))
-                                      (algebra-readable (cdr quotient)))))))
+      (with-algebra-ring (algebra-collected-reduced (algebra-normal-quotient e)))))
+
+(defun algebra-collected-reduced (quotient)
+  "The collected expression of a QUOTIENT after reduction."
+  (algebra-collected-quotient (algebra-readable (car quotient)) (algebra-readable (cdr quotient))))
 
 (defun algebra-collected-quotient (n d)
   "N/D, N collected where D is a number and it is shorter so."

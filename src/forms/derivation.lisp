@@ -11,7 +11,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/derivatives" "forms/bound"))
+  (core-require "algebra/derivatives" "algebra/collected" "forms/bound"))
 
 (defstruct forms-derivation
   function dissipation forces ; L, Rayleigh's function, the forces: quotients
@@ -147,7 +147,8 @@ where it is too long."
              'disrep)))
 
 (defun forms-written (quotients)
-  (cons '(mlist simp) (mapcar #'algebra-general-reduced quotients)))
+  (cons '(mlist simp)
+        (mapcar (lambda (quotient) (algebra-collected-reduced (algebra-cancel quotient))) quotients)))
 
 (defun forms-unless-too-large (value)
   (if (eq value 'too-large) nil value))

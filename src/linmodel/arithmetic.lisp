@@ -86,7 +86,7 @@
 (defun linmodel-lowered-quotient (x)
   (if (eql x 0)
       0
-      (algebra-collected-quotient (algebra-readable (car x)) (algebra-readable (cdr x)))))
+      (algebra-collected-reduced x)))
 
 ;;; Vectors are lists of three elements.
 
