@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Polynomials written as a person collects them: every function of the angles once, with what it is
-;;; multiplied by,    l1*l2*(m2 + m3)*(sin(q1)*sin(q2) + cos(q1)*cos(q2)).
+;;; Polynomials written as a person collects them: every product of velocities and function of the
+;;; angles once, with what it is multiplied by,
+;;;     l1*l2*(m2 + m3)*(cos(q1)*sin(q2) - sin(q1)*cos(q2))*'diff(q2,t)^2.
 ;;; The angles being the lowest variables, a polynomial is a sum of monomials of the others times
 ;;; polynomials in sines and cosines, its leaves; the monomials of leaves that are equal up to a
 ;;; number are collected. Taken only where it is shorter than the expanded form.
@@ -31,9 +32,9 @@
         (algebra-general-quotient n d))))
 
 (defun algebra-size-of-groups (groups)
+  "As algebra-expanded-size counts: one for a number in front, one for each factor."
   (loop for (nil . factors) in groups
-        sum (loop for factor in factors
-                  unless (eql factor 1) sum (algebra-expanded-size factor))))
+        sum (1+ (loop for factor in factors sum (1- (algebra-expanded-size factor))))))
 
 ;;; Leaves.
 
@@ -49,17 +50,26 @@
     (walk p '())))
 
 (defun algebra-groups-of-leaves (p)
-  "A list of (leaf . coefficient), the leaves without numbers in common."
-  (let ((groups (make-hash-table :test #'equal)) (leaves '()))
+  "A list of ((velocities . leaf) . coefficient), the leaves without numbers in common."
+  (let ((groups (make-hash-table :test #'equal)) (keys '()))
     (algebra-map-leaves
      (lambda (monomial leaf)
        (let* ((number (algebra-signed-content leaf))
-              (leaf (pquotient leaf number)))
-         (unless (gethash leaf groups) (push leaf leaves))
-         (push (ptimes number (algebra-monomial-polynomial monomial)) (gethash leaf groups))))
+              (velocities (remove-if-not #'algebra-velocity-p monomial :key #'car))
+              (key (cons velocities (pquotient leaf number))))
+         (unless (gethash key groups) (push key keys))
+         (push (ptimes number (algebra-monomial-polynomial (set-difference monomial velocities)))
+               (gethash key groups))))
      p)
-    (loop for leaf in (nreverse leaves)
-          collect (cons leaf (algebra-polynomial-sum (gethash leaf groups))))))
+    (loop for key in (nreverse keys)
+          collect (cons key (algebra-polynomial-sum (gethash key groups))))))
+
+(defvar *algebra-velocities* '() "Variables that are velocities or accelerations under plain names.")
+
+(defun algebra-velocity-p (variable)
+  (let ((e (get variable 'disrep)))
+    (or (and (consp e) (eq (caar e) '%derivative))
+        (member variable *algebra-velocities* :test #'eq))))
 
 (defun algebra-signed-content (p)
   (let ((content (algebra-number-content p)))
@@ -68,14 +78,17 @@
 ;;; Expressions.
 
 (defun algebra-group-factors (group)
-  "The number, the monomial, what is left of the coefficient, and the leaf."
-  (destructuring-bind (leaf . coefficient) group
+  "The number, the monomial, what is left of the coefficient, the leaf and the velocities."
+  (destructuring-bind ((velocities . leaf) . coefficient) group
     (let* ((number (algebra-signed-content coefficient))
            (monomial (algebra-monomial-polynomial (algebra-monomial coefficient)))
-           (rest (pquotient (pquotient coefficient number) monomial)))
-      (if (and (minusp number) (algebra-mixed-signs-p rest))
-          (list (- number) monomial (pminus rest) leaf)
-          (list number monomial rest leaf)))))
+           (rest (pquotient (pquotient coefficient number) monomial))
+           (opposite (and (minusp number) (algebra-mixed-signs-p rest))))
+      (list (if opposite (- number) number)
+            monomial
+            (if opposite (pminus rest) rest)
+            leaf
+            (algebra-monomial-polynomial velocities)))))
 
 (defun algebra-mixed-signs-p (p)
   "Whether P, whose first coefficient is positive, has a negative one."

@@ -137,7 +137,9 @@ where it is too long."
         (let ((derivation (forms-derivation-of (cdr plain) (cdr q) (cdr v) (cdr a))))
           (when derivation
             (forms-rename-kernels back)
-            (funcall function derivation)))))))
+            (let ((*algebra-velocities* (append (forms-derivation-velocities derivation)
+                                                (forms-derivation-accelerations derivation))))
+              (funcall function derivation))))))))
 
 (defun forms-rename-kernels (back)
   "Kernels are written with the right sides of BACK in place of their left sides."
