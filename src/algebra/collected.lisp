@@ -64,12 +64,13 @@
     (loop for key in (nreverse keys)
           collect (cons key (algebra-polynomial-sum (gethash key groups))))))
 
-(defvar *algebra-velocities* '() "Variables that are velocities or accelerations under plain names.")
+(defvar *algebra-velocities* '() "Plain names of velocities and accelerations.")
 
 (defun algebra-velocity-p (variable)
   (let ((e (get variable 'disrep)))
-    (or (and (consp e) (eq (caar e) '%derivative))
-        (member variable *algebra-velocities* :test #'eq))))
+    (if (symbolp e)
+        (member e *algebra-velocities* :test #'eq)
+        (and (consp e) (eq (caar e) '%derivative)))))
 
 (defun algebra-signed-content (p)
   (let ((content (algebra-number-content p)))

@@ -137,8 +137,7 @@ where it is too long."
         (let ((derivation (forms-derivation-of (cdr plain) (cdr q) (cdr v) (cdr a))))
           (when derivation
             (forms-rename-kernels back)
-            (let ((*algebra-velocities* (append (forms-derivation-velocities derivation)
-                                                (forms-derivation-accelerations derivation))))
+            (let ((*algebra-velocities* (append (cdr v) (cdr a))))
               (funcall function derivation))))))))
 
 (defun forms-rename-kernels (back)

@@ -72,9 +72,10 @@
 
 (defun $linmodel_projected_equations (scene gravity given velocities accelerations form)
   "[e_1, ..] of M q'' - f in the names of the VELOCITIES and ACCELERATIONS."
-  (linmodel-compute
-   form
-   (lambda (a)
-     (multiple-value-bind (rows right) (linmodel-projection a scene gravity given velocities)
-       (linmodel-lower-vector
-        a (linmodel-residuals a rows right (linmodel-lift-vector a accelerations)))))))
+  (let ((*algebra-velocities* (append (cdr velocities) (cdr accelerations))))
+    (linmodel-compute
+     form
+     (lambda (a)
+       (multiple-value-bind (rows right) (linmodel-projection a scene gravity given velocities)
+         (linmodel-lower-vector
+          a (linmodel-residuals a rows right (linmodel-lift-vector a accelerations))))))))
