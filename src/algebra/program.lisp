@@ -68,7 +68,8 @@
   (reduce (lambda (x y) (algebra-program-extreme x y sign)) elements))
 
 (defun algebra-refuse-program (e)
-  (core-error "~a has no place in a program, which adds, multiplies, divides, takes powers and elementary functions~a"
+  (core-error "~a has no place in a program, ~
+               which adds, multiplies, divides, takes powers and elementary functions~a"
               (mfuncall '$string e)
               (if (char= (char (string (caar e)) 0) #\$)
                   (format nil "; give ~a a formula in laws" (core-spelling (caar e)))

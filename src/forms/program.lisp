@@ -96,7 +96,7 @@
    outputs))
 
 (defun forms-function-program (task name element expected how)
-  "The record of one output, ELEMENT; EXPECTED is its value as a function of points, found otherwise."
+  "The record of one output, ELEMENT; EXPECTED, a function of points, is its value found otherwise."
   (let ((point (forms-new-point t)))
     (forms-verdict how
                    (catch 'forms-no-value (first (forms-program-values (list element) point)))
@@ -108,4 +108,5 @@
   "The record of NAME = E, an expression in names inside."
   (with-algebra-program
     (forms-function-program (forms-read-task task) name (algebra-program-element e)
-                            (forms-values-of e) "value of the program against that of the expression")))
+                            (forms-values-of e)
+                            "value of the program against that of the expression")))

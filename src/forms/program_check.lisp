@@ -3,7 +3,7 @@
 ;;; the virtual work c.(M q'' - f) that the program gives is compared with that of judge.lisp, which
 ;;; knows of no program; along the same motion the second derivatives of the constraints are
 ;;;     f_j'' = A q'' - b,   their change with the displacement A c,
-;;; and where the program gives q'' and lambda, the works cancel: c.(M q'' - f) = lambda.A c, f_j'' = 0.
+;;; and where the program gives q'' and lambda, c.(M q'' - f) = lambda.A c and f_j'' = 0.
 ;;; See forms-check-program first.
 
 (in-package :maxima)

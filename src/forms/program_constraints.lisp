@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Constraints on programs, f_j(q,t) = 0 or g_j = sum a_ji q_i' + a_j = 0. The rate of f_j is such a
-;;; g_j; the rate of g_j must vanish, too:
+;;; Constraints on programs, f_j(q,t) = 0 or g_j = sum a_ji q_i' + a_j = 0. The rate of f_j is
+;;; such a g_j; the rate of g_j must vanish, too:
 ;;;     M q'' = f + A^T lambda,   A q'' = b,   b_j = -(rate of g_j at q'' = 0).
 ;;; Where the accelerations are wanted, q'' = x + Y lambda with M x = f, M Y = A^T, and
 ;;; A Y lambda = b - A x. See forms-solved-outputs first.

@@ -8,7 +8,7 @@
   (core-require "algebra/program"))
 
 (defun forms-program-factors (rows fault)
-  "The array with L below the diagonal and D on it, ROWS = L D L^T; FAULT says what a zero in D means."
+  "The array with L below the diagonal and D on it, ROWS = L D L^T; FAULT: what a zero in D means."
   (let* ((n (length rows)) (a (make-array (list n n) :initial-contents rows)))
     (dotimes (k n a)
       (when (eql (aref a k k) 0) (core-error "~a" fault))

@@ -54,7 +54,7 @@
 ;;; For Maxima.
 
 (defun $linmodel_function_program (scene gravity potential task name kinetic)
-  "The record of NAME, of T where KINETIC is true, of the weight's U, and of the POTENTIAL beside it."
+  "The record of NAME: T where KINETIC is true, the weight's U, and the POTENTIAL beside it."
   (destructuring-bind (links bodies) (cddr scene)
     (let ((task (forms-read-task task)))
       (with-algebra-program

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What depends on coordinates and time alone, and its rate as a row [c_0, c_1, .., c_n]: the rate is
-;;; c_0 + sum c_i q_i'. An expression is differentiated by the names that occur in it only, so that a
-;;; chain of many bodies costs no more for each of them. Places of sections and links in their lists.
+;;; What depends on coordinates and time alone, and its rate as a row [c_0, c_1, .., c_n]: the rate
+;;; is c_0 + sum c_i q_i'. An expression is differentiated by the names that occur in it only, so
+;;; that a chain of many bodies costs no more for each. Places of sections and links in their lists.
 
 (in-package :maxima)
 
@@ -11,7 +11,8 @@
 (defun $linmodel_check_geometry (section key e)
   (let ((derivatives (forms-collect-derivatives e '())))
     (when derivatives
-      ($core_fault section key key " must not contain velocities, found " (car (last derivatives))))))
+      ($core_fault section key key " must not contain velocities, found "
+                   (car (last derivatives))))))
 
 ;;; Names
 
