@@ -122,9 +122,6 @@
 (defun algebra-input-p (node)
   (eq (algebra-node-operation node) :input))
 
-(defun algebra-operation-count (elements)
-  (count-if-not #'algebra-input-p (algebra-live-nodes elements)))
-
 (defun algebra-rename-inputs (pairs)
   "Inputs are written with the right sides of PAIRS, equations, in place of their left sides."
   (loop for (nil inside outside) in (cdr pairs)
