@@ -36,9 +36,11 @@
   (let ((found (catch 'algebra-too-large
                  (let ((*algebra-may-give-up* t) (*algebra-limit* 60000))
                    (forms-canonical-form rows b)))))
-    (unless (or (eq found 'too-large)
-                (> (algebra-size found) (max 20000 (* 4 (reduce #'min (forms-nested-sizes rows b))))))
+    (unless (or (eq found 'too-large) (forms-much-longer-p (algebra-size found) rows b))
       found)))
+
+(defun forms-much-longer-p (size rows b)
+  (> size (max 20000 (* 4 (reduce #'min (forms-nested-sizes rows b))))))
 
 ;;; Blocks: indices that products join.
 
@@ -129,11 +131,12 @@
                                       #'sum #'sum #'sum)
             (destructuring-bind (rows b) (forms-smallest-first rows rows b)
               (forms-elimination rows b #'sum
-                                 (lambda (e factor x pivot same) (sum e factor (if same 0 x) pivot))
+                                 (lambda (e factor x pivot same)
+                                   (sum e factor (if same 0 x) pivot))
                                  #'sum))))))
 
-;;; Elimination: b.A^-1.b is the sum of b_k^2/a_kk, where after each k what is left of A and b becomes
-;;; a_ij - a_ik a_kj/a_kk, b_i - a_ik b_k/a_kk. Short entries first: what comes late is written
+;;; Elimination: b.A^-1.b is the sum of b_k^2/a_kk, where after each k what is left of A and b
+;;; becomes a_ij - a_ik a_kj/a_kk, b_i - a_ik b_k/a_kk. Short entries first: what comes late is written
 ;;; least.
 
 (defun forms-by-elimination (rows b)
@@ -145,7 +148,7 @@
                        (lambda (y pivot)
                          (when (eq t ($algebra_vanishes pivot))
                            (core-error "the quadratic form in the momenta is long, and its ~
-                                        elimination meets a zero; give numbers to some parameters"))
+                                        elimination meets a zero; give numbers to parameters"))
                          (div (power y 2) (mul 2 pivot))))))
 
 (defun forms-smallest-first (sizes rows b)
