@@ -20,13 +20,20 @@
 
 (defun archive-meets-p (call condition)
   "Whether the call or the archive gives the option CONDITION, or (option value) with this value;
-:file: whether the system is a file."
-  (cond ((consp condition)
-         (eq (archive-option call (first condition) nil) (second condition)))
-        ((eq condition :file)
+:file: whether the system is a file; (:edited name): whether its result NAME was edited by hand."
+  (cond ((eq condition :file)
          (and (archive-call-archive call) (archive-path (archive-call-archive call)) t))
-        (t (or (nth-value 1 (gethash condition (archive-call-given call)))
-               (nth-value 1 (archive-key-value call condition))))))
+        ((stringp condition)
+         (or (nth-value 1 (gethash condition (archive-call-given call)))
+             (nth-value 1 (archive-key-value call condition))))
+        ((eq (first condition) :edited)
+         (archive-edited-p call (second condition)))
+        (t (eq (archive-option call (first condition) nil) (second condition)))))
+
+(defun archive-edited-p (call name)
+  (and (archive-stored-p call name)
+       (archive-same-options-p call name)
+       (archive-edited-digest (archive-call-archive call) name)))
 
 (defun archive-input-name (input) (if (consp input) (car input) input))
 
@@ -71,10 +78,15 @@
 
 (defun archive-rule-sources (rule)
   "What a quantity by RULE depends on: the condition of the rule too."
-  (append (and (rule-given rule) (not (eq (rule-given rule) :file)) (list (rule-given rule)))
+  (append (archive-condition-sources (rule-given rule))
           (cond ((rule-same rule) (list (rule-same rule)))
                 ((rule-record rule) (list (rule-record rule)))
                 (t (rule-inputs rule)))))
+
+(defun archive-condition-sources (condition)
+  (cond ((or (null condition) (eq condition :file)) '())
+        ((and (consp condition) (eq (first condition) :edited)) '())
+        (t (list condition))))
 
 (defun archive-add-needs (call need name)
   (let ((more (archive-needs call name)))
