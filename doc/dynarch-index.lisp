@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2560724392 61887
+;;; Made by tools/doc; checksum of doc/*.texi: 2819295596 61887
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
