@@ -4,16 +4,20 @@
 (in-package :maxima)
 
 (core-public "Kinematics" :kinds '("mechanical"))
-(core-rule "Kinematics" '("mechanical") "linmodel/lagrangian" "linmodel_kinematics" "description" '("form" $auto))
+(core-rule "Kinematics" '("mechanical") "linmodel/lagrangian" "linmodel_kinematics" "description"
+  '("form" $auto))
 
 (core-public "KineticEnergy" :kinds '("mechanical"))
-(core-rule "KineticEnergy" '("mechanical") "linmodel/lagrangian" "linmodel_kinetic_energy" "description" '("form" $auto))
+(core-rule "KineticEnergy" '("mechanical") "linmodel/lagrangian" "linmodel_kinetic_energy"
+  "description" '("form" $auto))
 
 (core-public "ForceFunction" :kinds '("mechanical"))
-(core-rule "ForceFunction" '("mechanical") "linmodel/lagrangian" "linmodel_force_function" "description" '("form" $auto))
+(core-rule "ForceFunction" '("mechanical") "linmodel/lagrangian" "linmodel_force_function"
+  "description" '("form" $auto))
 
 (core-public "Lagrangian" :kinds '("mechanical"))
-(core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description" '("form" $auto))
+(core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description"
+  '("form" $auto))
 
 (core-rule-given '("form" $program) "KineticEnergy" '("mechanical")
   "linmodel/energy_program" "linmodel_kinetic_program" "description" '("laws" ((mlist simp))))
@@ -27,7 +31,8 @@
     ("nonholonomic" ((mlist simp))) ("laws" ((mlist simp)))))
 
 (dolist (option '(nil ("form" $program)))
-  (apply #'core-rule-given option "EquationProgram" '("mechanical") "linmodel/equation_program" "linmodel_equation_program"
+  (apply #'core-rule-given option "EquationProgram" '("mechanical") "linmodel/equation_program"
+    "linmodel_equation_program"
          (append *linmodel-program-inputs* '(("solved" nil) ("inverse" nil)))))
 (apply #'core-rule-given '(:edited "Lagrangian") "EquationProgram" '("mechanical")
        "forms/equation_program" "forms_equation_program" "Lagrangian" "coordinates"
@@ -40,20 +45,18 @@
 
 ;;; Equations by projection; a file has Lagrange's function as a step, which may be edited
 
-(defparameter *linmodel-mass-inputs* '("description" ("rayleigh" 0) ("forces" ((mlist simp)))))
-(defparameter *linmodel-lagrange-inputs*
-  (append *linmodel-mass-inputs*
-          '(("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp))) ("simplify" nil) ("expanded" nil)
-            ("eliminate" nil) ("form" $auto))))
+(defparameter *linmodel-mass-inputs*
+  '("description" ("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
+    ("nonholonomic" ((mlist simp)))))
 
-(apply #'core-rule "MassForm" '("mechanical") "linmodel/mass_form" "linmodel_mass_form"
-       (append *linmodel-mass-inputs* '(("form" $auto))))
-(apply #'core-rule-given :file "MassForm" '("mechanical") "linmodel/mass_form" "linmodel_mass_form_with"
-       "Lagrangian" (append *linmodel-mass-inputs* '(("form" $auto))))
-(apply #'core-rule "LagrangeEquations" '("mechanical") "linmodel/mass_form" "linmodel_lagrange_equations"
-       *linmodel-lagrange-inputs*)
-(apply #'core-rule-given :file "LagrangeEquations" '("mechanical") "linmodel/mass_form"
-       "linmodel_lagrange_equations_with" "Lagrangian" *linmodel-lagrange-inputs*)
+(loop for (target function others) in '(("MassForm" "linmodel_mass_form" (("form" $auto)))
+                                        ("LagrangeEquations" "linmodel_lagrange_equations"
+                                         (("simplify" nil) ("expanded" nil) ("eliminate" nil)
+                                          ("form" $auto))))
+      for inputs = (append *linmodel-mass-inputs* others)
+      do (apply #'core-rule target '("mechanical") "linmodel/mass_form" function inputs)
+         (apply #'core-rule-given :file target '("mechanical") "linmodel/mass_form"
+                (concatenate 'string function "_with") "Lagrangian" inputs))
 
 ;;; Equations in quasi-velocities
 
