@@ -2,9 +2,9 @@
 ;;; What the recursion over bodies computes with. An arithmetic says how expressions are taken in
 ;;; (lift) and given back (lower), how its elements are added and multiplied, what sine and cosine
 ;;; of an angle are, and how long an element is (size, 0 where nothing is multiplied out); zero is
-;;; 0 in each of them. The recursion is written once and runs on general expressions, left as sums of
-;;; products of short factors (factored), on the canonical form, and, before that, on an arithmetic
-;;; that only meets the kernels. See linmodel-compute first.
+;;; 0 in each of them. The recursion is written once and runs on general expressions, left as sums
+;;; of products of short factors (factored), on the canonical form, and, before that, on an
+;;; arithmetic that only meets the kernels. See linmodel-compute first.
 
 (in-package :maxima)
 
@@ -18,7 +18,7 @@
   turn      ; of (x y angle): the components in axes turned by an angle, where sums are not enough
   product)  ; of (x y v w): x*v + y*w, or nil
 
-(defvar *linmodel-moderate* 20000
+(defparameter *linmodel-moderate* 20000
   "Where more terms than this are foretold, the canonical form is taken only if it is asked for.")
 
 (defun linmodel-compute (form function)
@@ -115,6 +115,9 @@
 
 (defun linmodel-vector-plus (a u v)
   (mapcar (lambda (x y) (linmodel-plus a x y)) u v))
+
+(defun linmodel-vector-times (a x vector)
+  (mapcar (lambda (component) (linmodel-times a x component)) vector))
 
 (defun linmodel-dot (a u v)
   (or (linmodel-plane-dot a u v)

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; T and U in numbers, from the frames in fixed axes:
-;;;     T_k = m r_C'.r_C'/2 + trace(A' J A'^T)/2 + h.w,   J = trace(Theta_C)/2 - Theta_C,   U_k = m g.r_C,
-;;; h the momentum of rotors inside, w the angular velocity, A^T A' its skew matrix.
+;;;     T_k = m r_C'.r_C'/2 + trace(A' J A'^T)/2 + h.w,   J = trace(Theta_C)/2 - Theta_C,   U_k = m
+;;; g.r_C, h the momentum of rotors inside, w the angular velocity, A^T A' its skew matrix.
 ;;; They judge the expressions for T and U, and as functions of a point the mass form.
 
 (in-package :maxima)
@@ -20,7 +20,8 @@
         (make-linmodel-solid
          :link link :mass mass :centre centre
          :moments (linmodel-moments (if joint-inertia
-                                        (linmodel-fixed-about-centre (rows joint-inertia) mass centre)
+                                        (linmodel-fixed-about-centre (rows joint-inertia) mass
+                                                                     centre)
                                         (rows centre-inertia)))
          :momentum (and momentum (linmodel-fixed-vector momentum point)))))))
 
@@ -49,7 +50,8 @@
          (velocity (linmodel-fixed-plus
                     (linmodel-frame-velocity frame)
                     (linmodel-fixed-combination da (linmodel-solid-centre solid)))))
-    (+ (ash (forms-fixed-times (linmodel-solid-mass solid) (linmodel-fixed-dot velocity velocity)) -1)
+    (+ (ash (forms-fixed-times (linmodel-solid-mass solid) (linmodel-fixed-dot velocity velocity))
+            -1)
        (ash (linmodel-trace-value (linmodel-solid-moments solid) da) -1)
        (linmodel-gyrostat-value (linmodel-solid-momentum solid) frame))))
 

@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Positions and velocities in fixed axes, in numbers, with nothing of the recursion in body axes: what
-;;; T, U, the forces and the equations are judged by. A frame has the direction cosines A of its axes
-;;; (three columns), their rates A', the radius vector r of its origin and r'. From the parent j to k,
+;;; Positions and velocities in fixed axes, in numbers, with nothing of the recursion in body axes:
+;;; what T, U, the forces and the equations are judged by. A frame has the direction cosines A of
+;;; its axes (three columns), their rates A', the radius vector r of its origin and r'. From the
+;;; parent j to k,
 ;;;     r_k = r_j + A_j joint,   A_k = A_j times the simple rotations,
 ;;; differentiated by the rule of products. See linmodel-frames-at first.
 
@@ -24,7 +25,8 @@
   "The vector sum of the COLUMNS times the COEFFICIENTS."
   (let ((sum (list 0 0 0)))
     (mapc (lambda (column x)
-            (unless (eql x 0) (setq sum (linmodel-fixed-plus sum (linmodel-fixed-scaled x column)))))
+            (unless (eql x 0)
+              (setq sum (linmodel-fixed-plus sum (linmodel-fixed-scaled x column)))))
           columns coefficients)
     sum))
 

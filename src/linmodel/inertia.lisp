@@ -84,17 +84,3 @@
             (body-twists (nth (1- (linmodel-body-link body)) twists)))
         (linmodel-add-body a form body body-twists)
         (when momentum (linmodel-add-momentum a form momentum body-twists))))))
-
-;;; For Maxima.
-
-(defun $linmodel_inertia_form (links bodies n form)
-  "The matrix of (x_i, x_j), i, j = 0 .. N: T = sum (x_i, x_j) q_i' q_j'/2 with q_0' = 1."
-  (linmodel-compute
-   form
-   (lambda (a)
-     (let ((products (linmodel-inertia-form a links bodies n)))
-       (cons '($matrix simp)
-             (loop for i from 0 to n
-                   collect (linmodel-lower-vector
-                            a (loop for j from 0 to n
-                                    collect (aref products (min i j) (max i j))))))))))

@@ -1,8 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The kinetic energy as one expression: by pairs of velocities, the sum of (x_i, x_j) q_i' q_j'/2 of
-;;; inertia.lisp, or by bodies, the sum of (x, x)/2, x = (w . v) the velocities of each as sums. In space
-;;; the latter is shorter by far where nothing is multiplied out: n bodies with two angles each have
-;;; some 3^n terms instead of 6^n. In the plane the former has one cosine for each pair of links.
+;;; The kinetic energy as one expression: by pairs of velocities, the sum of (x_i, x_j) q_i' q_j'/2
+;;; of inertia.lisp, or by bodies, the sum of (x, x)/2, x = (w . v) the velocities of each as sums.
+;;; In space the latter is shorter by far where nothing is multiplied out: n bodies with two angles
+;;; each have some 3^n terms instead of 6^n. In the plane the former has one cosine for each pair
+;;; of links.
 
 (in-package :maxima)
 
@@ -22,7 +23,8 @@
           do (loop for j from i below (length velocities)
                    for w in (nthcdr i velocities)
                    for product = (linmodel-times a (aref form i j) (linmodel-times a v w))
-                   do (setq sum (linmodel-plus a sum (if (= i j) (linmodel-half a product) product)))))
+                   do (setq sum (linmodel-plus a sum
+                                               (if (= i j) (linmodel-half a product) product)))))
     sum))
 
 ;;; By bodies.

@@ -3,14 +3,16 @@
 ;;; accelerations e and a (of O_k; -g at rest stands for a constant field), all in its own axes; the
 ;;; load (N . F) that gives a body these, N about O_k, is
 ;;;     F = m (a + e x c + w x (w x c)),   N = Theta e + w x (Theta w + h) + m c x a.
-;;; With the accelerations q_i'' put to 0 these are the bias accelerations. See linmodel-motions first.
+;;; With the accelerations q_i'' put to 0 these are the bias accelerations. See linmodel-motions
+;;; first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "linmodel/inertia" "linmodel/rates"))
 
-;;; The state of motion: the names of the coordinates, their velocities and accelerations as elements.
+;;; The state of motion: the names of the coordinates, their velocities and accelerations as
+;;; elements.
 
 (defstruct linmodel-state names velocities accelerations)
 
@@ -49,23 +51,19 @@
        :parent (linmodel-link-parent link)
        :turns turns
        :drifts (drifts (mapcar #'fourth (cdr (fourth link))))
-       :back (mapcar (lambda (turn) (linmodel-back-turn a turn)) (reverse turns))
+       :back (linmodel-back-turns a turns)
        :place (linmodel-link-joint a link)
        :rows (linmodel-link-rows a link)
        :row-drifts (drifts (cdr (sixth link)))
        :twists (linmodel-own-twists a link turns (length (linmodel-state-names state)))
        :bodies (remove k bodies :key #'linmodel-body-link :test-not #'eql)))))
 
-(defun linmodel-back-turn (a turn)
-  (make-linmodel-turn :axis (linmodel-turn-axis turn)
-                      :sine (linmodel-minus a (linmodel-turn-sine turn))
-                      :cosine (linmodel-turn-cosine turn)))
-
 (defun linmodel-own-twists (a link turns n)
   "The list of (i w . v), i from 1 to N, of LINK on a parent at rest."
   (let ((place (linmodel-link-joint a link)) (rows (linmodel-link-rows a link)))
     (loop for i in (linmodel-moving-indices (append rows (mapcar #'linmodel-turn-row turns)) n)
-          collect (cons i (linmodel-carried-twist a i (linmodel-twist-of i '()) turns place rows)))))
+          collect (cons i (linmodel-carried-twist a i (linmodel-twist-of i '()) turns place
+                                                  rows)))))
 
 (defun linmodel-moving-indices (rows n)
   "The indices, from 1 to N, at which one of ROWS is not 0."
@@ -153,7 +151,8 @@
       (flet ((tensor-times (v) (if tensor (linmodel-matrix-times a tensor v) (list 0 0 0))))
         (linmodel-vector-plus
          a (tensor-times e)
-         (linmodel-cross a w (linmodel-vector-plus a (tensor-times w) (or momentum (list 0 0 0)))))))))
+         (linmodel-cross a w
+                         (linmodel-vector-plus a (tensor-times w) (or momentum (list 0 0 0)))))))))
 
 (defun linmodel-body-load (a body motion)
   (let* ((m (linmodel-body-mass body)) (c (linmodel-body-centre body))
@@ -162,6 +161,3 @@
                   (linmodel-vector-times a m (linmodel-cross a c (third motion)))
                   (linmodel-cross a c force))))
     (cons (linmodel-vector-plus a (linmodel-turning-moment a body motion) arm) force)))
-
-(defun linmodel-vector-times (a x vector)
-  (mapcar (lambda (component) (linmodel-times a x component)) vector))

@@ -11,9 +11,6 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "linmodel/inertia"))
 
-(defun linmodel-scaled (a x vector)
-  (mapcar (lambda (component) (linmodel-times a x component)) vector))
-
 (defun linmodel-attraction (a body beta place factors)
   "The force function of BODY, its tensor about O_k; FACTORS are nu/r, -nu/r^2 and nu/(2 r^3)."
   (destructuring-bind (zeroth first-order second-order) factors
@@ -47,7 +44,7 @@
 (defun linmodel-carried-places (a links first-link distance direction)
   "For each link (beta . p), p being zero for FIRST-LINK, that of body 1."
   (let* ((chi (linmodel-lift-vector a direction))
-         (back (linmodel-scaled a (linmodel-minus a (linmodel-lift a distance)) chi))
+         (back (linmodel-vector-times a (linmodel-minus a (linmodel-lift a distance)) chi))
          (start (cons chi back)))
     (linmodel-over-links
      links

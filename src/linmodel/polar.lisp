@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Plane vectors of general expressions by polar angles, so that turns about one axis, one after the
-;;; other, are one turn: (x, y) is the sum of
+;;; Plane vectors of general expressions by polar angles, so that turns about one axis, one after
+;;; the other, are one turn: (x, y) is the sum of
 ;;;     (p cos(u) + r sin(u), r cos(u) - p sin(u)),
 ;;; the vectors (p, r) in axes turned by u; a further turn adds to u. Two turns by a and b - a leave
 ;;; cos(b), and the velocities of a plane chain stay as short as the chain is.

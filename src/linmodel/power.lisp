@@ -24,16 +24,10 @@
     (loop while (and up down (eq (car up) (car down)))
           do (pop up) (pop down))
     (dolist (link (reverse up))
-      (setq vector (linmodel-turned-back a (linmodel-link-turns a link) vector)))
+      (setq vector (linmodel-turned-by-all
+                    a (linmodel-back-turns a (linmodel-link-turns a link)) vector)))
     (dolist (link down vector)
       (setq vector (linmodel-turned-by-all a (linmodel-link-turns a link) vector)))))
-
-(defun linmodel-turned-back (a turns vector)
-  (dolist (turn (reverse turns) vector)
-    (let ((back (copy-linmodel-turn turn)))
-      (setf (linmodel-turn-sine back) (linmodel-minus a (linmodel-turn-sine turn))
-            (linmodel-turn-angle back) (neg (linmodel-turn-angle turn)))
-      (setq vector (linmodel-turned a back vector)))))
 
 (defun linmodel-add-load (a links all-twists load forces)
   "Adds to the array FORCES those of LOAD: [link, point, force, torque, link of their axes]."

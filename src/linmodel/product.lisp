@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Products of general expressions: two lists of factors in Maxima's order become one, powers of one
-;;; base joined. The simplifier copies every factor each time, which costs as much as the recursion
-;;; over bodies itself; to it are left numbers times sums, roots of numbers and exponents that are
-;;; no whole numbers. See linmodel-product first.
+;;; Products of general expressions: two lists of factors in Maxima's order become one, powers of
+;;; one base joined. The simplifier copies every factor each time, which costs as much as the
+;;; recursion over bodies itself; to it are left numbers times sums, roots of numbers and exponents
+;;; that are no whole numbers. See linmodel-product first.
 
 (in-package :maxima)
 

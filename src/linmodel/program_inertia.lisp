@@ -49,7 +49,8 @@
       (setq rows (linmodel-rows-plus a rows (linmodel-six-rows a body))))))
 
 (defun linmodel-own-inertias (a joints)
-  (coerce (loop for joint across joints collect (and joint (linmodel-own-inertia a joint))) 'vector))
+  (coerce (loop for joint across joints collect (and joint (linmodel-own-inertia a joint)))
+          'vector))
 
 (defun linmodel-transposed (rows) (apply #'mapcar #'list rows))
 
@@ -88,7 +89,8 @@
                  (aref beyond parent)
                  (linmodel-merged-loads
                   a (aref beyond parent)
-                  (linmodel-carried-loads a joint (linmodel-merged-loads a (aref beyond k) own))))))))
+                  (linmodel-carried-loads a joint
+                                          (linmodel-merged-loads a (aref beyond k) own))))))))
     (loop for i from 1 to n
           collect (loop for j from 1 to n collect (aref rows (min i j) (max i j))))))
 
@@ -196,14 +198,16 @@
                                         (linmodel-articulation-drive articulation))))
     (linmodel-load-plus
      a load
-     (linmodel-pair (linmodel-combination a (linmodel-articulation-columns articulation) factors)))))
+     (linmodel-pair (linmodel-combination a (linmodel-articulation-columns articulation)
+                                          factors)))))
 
 (defun linmodel-carried-acceleration (a joint acceleration)
   (destructuring-bind (w . v) acceleration
     (let ((turns (linmodel-joint-turns joint)))
       (cons (linmodel-turned-by-all a turns w)
             (linmodel-turned-by-all
-             a turns (linmodel-vector-plus a v (linmodel-cross a w (linmodel-joint-place joint))))))))
+             a turns
+             (linmodel-vector-plus a v (linmodel-cross a w (linmodel-joint-place joint))))))))
 
 (defun linmodel-accelerations-outwards (a joints articulations n)
   (let ((found (make-array (1+ n) :initial-element 0))

@@ -3,8 +3,8 @@
 ;;; x_j = (w_j . v_j) of a body, its bias accelerations e, a (of O_k), a_C and its mass m
 ;;;     M_ij = sum over bodies of (x_i, x_j),
 ;;;     f_j = given_j - sum over bodies of (m u_j.a_C + w_j.(Theta e + w x (Theta w + h))),
-;;; (x, y) as in inertia.lisp, u_j = v_j + w_j x c with Theta about the centre of mass; for Theta about O_k
-;;; u_j.a_C is v_j.a_C + (w_j x c).a. given_j are the forces that no constant field gives,
+;;; (x, y) as in inertia.lisp, u_j = v_j + w_j x c with Theta about the centre of mass; for Theta
+;;; about O_k u_j.a_C is v_j.a_C + (w_j x c).a. given_j are the forces that no constant field gives,
 ;;; dU/dq - dR/dq' + Q; a constant field enters as an acceleration of the fixed axes.
 
 (in-package :maxima)
@@ -23,7 +23,8 @@
               do (setf (aref found j)
                        (linmodel-sum a (aref found j)
                                      (linmodel-times a (linmodel-body-mass body)
-                                                     (linmodel-along-centre a body twist centre motion))
+                                                     (linmodel-along-centre a body twist centre
+                                                                            motion))
                                      (linmodel-dot a (car twist) moment))))))))
 
 (defun linmodel-along-centre (a body twist centre motion)

@@ -56,6 +56,15 @@
   (dolist (turn turns vector)
     (setq vector (linmodel-turned a turn vector))))
 
+(defun linmodel-back-turns (a turns)
+  "The TURNS that lead back."
+  (mapcar (lambda (turn)
+            (let ((back (copy-linmodel-turn turn)))
+              (setf (linmodel-turn-sine back) (linmodel-minus a (linmodel-turn-sine turn))
+                    (linmodel-turn-angle back) (neg (linmodel-turn-angle turn)))
+              back))
+          (reverse turns)))
+
 (defun linmodel-spinning (a turn i w)
   "W with the rate of TURN that belongs to the velocity I added about the axis of the turn."
   (let ((k (1- (linmodel-turn-axis turn))) (sum (copy-list w)))
