@@ -180,11 +180,13 @@ form, no surrogate."
           do (let ((length (archive-sequence-length bytes position end)))
                (cond ((null length)
                       (archive-fault-at file line column
-                                        "found the byte ~2,'0x (hexadecimal), which is not UTF-8; save the file as UTF-8"
+                                        "found the byte ~2,'0x (hexadecimal), which is not ~
+                                         UTF-8; save the file as UTF-8"
                                         (aref bytes position)))
                      ((archive-control-p bytes position end)
                       (archive-fault-at file line column
-                                        "found the control character ~d; a text has none but tab and line ends~a"
+                                        "found the control character ~d; a text has none but tab ~
+                                         and line ends~a"
                                         (archive-code-point bytes position length)
                                         (if (zerop (aref bytes position))
                                             " (is this a binary file?)" "")))

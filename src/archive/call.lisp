@@ -25,7 +25,9 @@
       (core-error "an argument holds a set { }, in which order and equal items are lost; use [ ]"))
     (dolist (late (nthcdr first-option arguments))
       (unless (archive-equation-p late)
-        (core-error "options such as save = false come after all other arguments; found ~a after one" (core-words (list late)))))
+        (core-error "options such as save = false come after all other arguments; found ~a after ~
+                     one"
+                    (core-words (list late)))))
     (values (subseq arguments 0 first-option) (nthcdr first-option arguments))))
 
 (defun archive-system-p (argument public)
@@ -65,7 +67,8 @@
 (defun archive-give-trailing (call values)
   (let ((names (core-public-trailing (archive-call-public call))))
     (when (> (length values) (length names))
-      (core-error "after the system ~:[only options~;~:*~{~a~^, ~} and options~] may follow, found ~a"
+      (core-error "after the system ~:[only options~;~:*~{~a~^, ~} and options~] may follow, ~
+                   found ~a"
                   names (core-words (list (nth (length names) values)))))
     (archive-give-positional call names values)))
 
@@ -87,7 +90,8 @@
      (when (core-public-kinds public)
        (list (format nil "~a(\"archive.txt\"~{, ~a~})" name (core-public-trailing public))))
      (loop for form in (core-public-forms public)
-           collect (format nil "~a(~{~a~^, ~})" name (remove "&optional" (cdr form) :test #'equal))))))
+           collect (format nil "~a(~{~a~^, ~})" name
+                           (remove "&optional" (cdr form) :test #'equal))))))
 
 (defun archive-option-name (equation)
   "The name of an option. `verbose', `functions' and `values' are variables of Maxima's own and
@@ -98,11 +102,13 @@ arrive as their values."
           ((eq left $functions) "functions")
           ((eq left $values) "values")
           ((symbolp left) (core-spelling left))
-          (t (core-error "an option has the form name = value, found ~a; if the name has a value in your session, quote it: 'name = value"
+          (t (core-error "an option has the form name = value, found ~a; if the name has a value ~
+                          in your session, quote it: 'name = value"
                          (core-words (list equation)))))))
 
 (defparameter *archive-option-types*
-  '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved" "matrices")
+  '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved"
+     "matrices")
     (:form "auto, canonical, factored or program" "form")
     (:function "lagrange, routh or hamilton" "function")
     (:file "a file name in double quotes" "result"))
@@ -117,7 +123,8 @@ at where they are used.")
     (:file (stringp value))))
 
 (defun archive-check-option (option value)
-  (let ((row (find-if (lambda (row) (member option (cddr row) :test #'string=)) *archive-option-types*)))
+  (let ((row (find-if (lambda (row) (member option (cddr row) :test #'string=))
+                      *archive-option-types*)))
     (unless (or (null row) (archive-option-fits (first row) value))
       (core-error "the option ~a is ~a, found ~a" option (second row) (core-words (list value))))))
 
@@ -148,7 +155,8 @@ at where they are used.")
             (if (string= (archive-group-section group) "system")
                 (let ((copy (copy-archive-group group)))
                   (setf (archive-group-statements copy)
-                        (append (remove name (archive-group-statements group) :key #'archive-statement-key :test #'equal)
+                        (append (remove name (archive-group-statements group)
+                                        :key #'archive-statement-key :test #'equal)
                                 (list (make-archive-statement :key name :value value))))
                   copy)
                 group))
@@ -170,7 +178,8 @@ at where they are used.")
     (dolist (equation options)
       (let ((name (archive-option-name equation)))
         (unless (member name known :test #'equal)
-          (core-error "there is no option ~a; the options are ~{~a~^, ~}" name (sort (copy-list known) #'string<)))
+          (core-error "there is no option ~a; the options are ~{~a~^, ~}" name
+                      (sort (copy-list known) #'string<)))
         (archive-check-option name (caddr equation))
         (when (and (string= name "form") (eq (caddr equation) '$program))
           (archive-check-program-form call))
@@ -180,14 +189,16 @@ at where they are used.")
 (defun archive-give-option (call name value)
   "A key that a rule builds on, as rayleigh where there are dampers, is given to the rule only."
   (let* ((kind (archive-call-kind call))
-         (key (and (archive-call-archive call) (member name (archive-overrulable-keys kind) :test #'equal))))
+         (key (and (archive-call-archive call)
+                   (member name (archive-overrulable-keys kind) :test #'equal))))
     (when key (archive-overrule call name value))
     (unless (and key (core-find-rule name kind (constantly nil)))
       (archive-give call name value))))
 
 (defun archive-overrule (call name value)
   (setf (archive-call-archive call) (archive-overruled (archive-call-archive call) name value)
-        (archive-call-facts call) (archive-facts (archive-description (archive-call-archive call)))))
+        (archive-call-facts call)
+        (archive-facts (archive-description (archive-call-archive call)))))
 
 (defun archive-option (call name default)
   (gethash name (archive-call-given call) default))

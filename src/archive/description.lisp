@@ -247,7 +247,8 @@
         (given (archive-find-group groups "system")))
     (cond ((and graph branches)
            (core-fault "system" "graph"
-                       "the branches stand twice, in graph and in [branches]; leave one of them out"))
+                       "the branches stand twice, in graph and in [branches]; leave one of them ~
+                        out"))
           (graph (values (archive-without-graph system (archive-given-p given "sign"))
                          (archive-graph-group (third graph))))
           (branches (values system branches))
@@ -278,7 +279,8 @@
 
 (defun archive-system-needed-p (kind)
   "Whether [system] has keys that an archive of KIND must state."
-  (some (lambda (key) (consp (member (archive-key-default key) '(:required)))) (archive-keys kind "system")))
+  (some (lambda (key) (consp (member (archive-key-default key) '(:required))))
+        (archive-keys kind "system")))
 
 (defun archive-system-group (kind groups)
   "The group [system]; an empty one where it is left out and nothing in it is required."

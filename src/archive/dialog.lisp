@@ -25,10 +25,12 @@
   "QUESTION as Maxima's own read() prints it, so that a worksheet shows it as a prompt."
   (format-prompt nil "~a"
                  (string-right-trim '(#\Newline #\Space)
-                                    (with-output-to-string (*standard-output*) (mfuncall '$print question)))))
+                                    (with-output-to-string (*standard-output*)
+                                      (mfuncall '$print question)))))
 
 (defun archive-numbered-question (question)
-  "QUESTION, numbered when it is asked again: worksheets fill in the old answer to a question of the same text."
+  "QUESTION, numbered when it is asked again: worksheets fill in the old answer to a question of
+the same text."
   (push question *archive-asked*)
   (let ((times (count question *archive-asked* :test #'string=)))
     (if (= times 1) question (format nil "(~d) ~a" times question))))
@@ -88,15 +90,18 @@
                 (t " [Enter: none]"))))
 
 (defun archive-explain (key)
-  (archive-say "  ~a: ~a. Type ~a.~@[ Enter takes ~a.~]" (archive-key-name key) (archive-key-help key)
-                    (archive-type-phrase (archive-key-type key)) (archive-default key)))
+  (archive-say "  ~a: ~a. Type ~a.~@[ Enter takes ~a.~]" (archive-key-name key)
+               (archive-key-help key) (archive-type-phrase (archive-key-type key))
+               (archive-default key)))
 
 (defun archive-quoted-text (text)
   "TEXT as a string of the archive, if it is not one yet."
   (if (char= (char text 0) #\") text (format nil "\"~a\"" (substitute #\' #\" text))))
 
 (defun archive-answer-for-archive (key answer)
-  (if (and (eq (archive-key-type key) :text) (plusp (length answer))) (archive-quoted-text answer) answer))
+  (if (and (eq (archive-key-type key) :text) (plusp (length answer)))
+      (archive-quoted-text answer)
+      answer))
 
 (defun archive-ask-key (key section required)
   "The text of the value of KEY; nil for its default, :rest where the person takes all defaults
@@ -107,7 +112,8 @@ that follow."
       (cond ((string= answer "?") (archive-explain key))
             ((and (string= answer ".") (not required)) (return :rest))
             ((and (member answer '("" ".") :test #'string=) required)
-             (archive-say "  ~a is needed: ~a." (archive-key-name key) (archive-type-phrase (archive-key-type key))))
+             (archive-say "  ~a is needed: ~a." (archive-key-name key)
+                          (archive-type-phrase (archive-key-type key))))
             ((string= answer "") (return nil))
             (t (let ((trouble (archive-value-trouble key text)))
                  (if trouble (archive-say "  ~a" trouble) (return text))))))))
@@ -127,7 +133,8 @@ that follow."
     (cond ((eq default :required) :needed)
           ((atom default) :open)
           ((eq (first default) :when)
-           (and (equal (archive-answered answers section (second default)) (third default)) :needed))
+           (and (equal (archive-answered answers section (second default)) (third default))
+                :needed))
           ((eq (first default) :with)
            (and (archive-answered answers section (second default)) :open))
           (t (if (archive-answered answers section (second default)) nil :needed)))))
@@ -140,14 +147,17 @@ that follow."
         (when (and need (or (eq need :needed) (not rest)))
           (let ((text (archive-ask-key key section (eq need :needed))))
             (cond ((eq text :rest) (setq rest t))
-                  (text (push (make-archive-item :section section :key key :text text) answers)))))))))
+                  (text
+                   (push (make-archive-item :section section :key key :text text) answers)))))))))
 
 (defun archive-ask-count (row)
   "How many sections of the sort ROW there are."
   (loop
-    (let ((answer (archive-ask-line (format nil "Number of sections [~a k], ~a [0]" (first row) (fourth row)))))
+    (let ((answer (archive-ask-line (format nil "Number of sections [~a k], ~a [0]"
+                                            (first row) (fourth row)))))
       (cond ((string= answer "") (return 0))
-            ((and (every #'digit-char-p answer) (< (length answer) 4)) (return (parse-integer answer)))
+            ((and (every #'digit-char-p answer) (< (length answer) 4))
+             (return (parse-integer answer)))
             (t (archive-say "  [~a k]: ~a. Type how many there are, such as 1; Enter takes 0."
                             (first row) (fourth row)))))))
 
@@ -155,9 +165,11 @@ that follow."
   "Names of the sections of the sort ROW, one after another, until an empty answer."
   (let ((names '()))
     (loop
-      (let ((name (archive-ask-line (format nil "Name of a [~a], ~a [Enter: no more]" (first row) (fourth row)))))
+      (let ((name (archive-ask-line (format nil "Name of a [~a], ~a [Enter: no more]"
+                                            (first row) (fourth row)))))
         (cond ((string= name "") (return (nreverse names)))
-              ((member name names :test #'string=) (archive-say "  There is a [~a ~a] already." (first row) name))
+              ((member name names :test #'string=)
+               (archive-say "  There is a [~a ~a] already." (first row) name))
               ((archive-plain-name-p name) (push name names))
               (t (archive-say "  [~a]: ~a. Type a name, such as ~a1; Enter ends."
                               (first row) (fourth row) (first row))))))))
@@ -168,7 +180,8 @@ that follow."
 
 (defun archive-ask-rows (section)
   "The rows of SECTION, one a line, until an empty answer."
-  (archive-say "  [~a]: one row a line, ~a; Enter ends." section (fourth (archive-section-row section)))
+  (archive-say "  [~a]: one row a line, ~a; Enter ends." section
+               (fourth (archive-section-row section)))
   (loop for n from 1
         for row = (archive-ask-good-row section n)
         until (string= row "")
@@ -208,7 +221,8 @@ that follow."
              (unless (archive-answered answers "system" "graph")
                (setq answers (append answers (archive-ask-rows (first row))))))
             (t (dolist (section (archive-section-names row answers))
-                 (setq answers (append answers (archive-ask-section kind (first row) section)))))))))
+                 (setq answers (append answers
+                                       (archive-ask-section kind (first row) section)))))))))
 
 (defun archive-ask-kind (kinds)
   (if (null (cdr kinds))

@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The end of the dialog: the description is shown, tried, changed until the person is content, and written. An item is changed
-;;; by its number, one that was passed over by its key. End of input leaves nothing behind. Look first at archive-dialog.
+;;; The end of the dialog: the description is shown, tried, changed until the person is content,
+;;; and written. An item is changed by its number, one that was passed over by its key. End of
+;;; input leaves nothing behind. Look first at archive-dialog.
 
 (in-package :maxima)
 
@@ -20,14 +21,16 @@
 
 (defun archive-item-line (item)
   "ITEM as it stands in an archive."
-  (format nil "~@[~a = ~]~a" (and (archive-item-key item) (archive-key-name (archive-item-key item)))
+  (format nil "~@[~a = ~]~a"
+          (and (archive-item-key item) (archive-key-name (archive-item-key item)))
           (archive-item-text item)))
 
 (defun archive-echo (items)
   (archive-say "The description:")
   (loop for item in items for n from 1
         do (archive-say "~3d  ~@[~a: ~]~a" n
-                        (and (string/= (archive-item-section item) "top") (archive-item-section item))
+                        (and (string/= (archive-item-section item) "top")
+                             (archive-item-section item))
                         (archive-item-line item))))
 
 ;;; Changes
@@ -45,39 +48,50 @@
   (let* ((colon (position #\: answer))
          (section (if colon (string-trim " " (subseq answer 0 colon)) "system"))
          (name (string-trim " " (if colon (subseq answer (1+ colon)) answer)))
-         (key (and (or (string= section "system") (find section items :key #'archive-item-section :test #'string=))
+         (key (and (or (string= section "system")
+                       (find section items :key #'archive-item-section :test #'string=))
                    (archive-find-key kind (archive-section-word section) name))))
     (and key (values section key))))
 
 (defun archive-item-of (items section key)
-  (find-if (lambda (item) (and (string= section (archive-item-section item)) (eq key (archive-item-key item)))) items))
+  (find-if (lambda (item)
+             (and (string= section (archive-item-section item)) (eq key (archive-item-key item))))
+           items))
 
 (defun archive-with-item (items new)
   "ITEMS with NEW behind the last one of its section, or first of all."
-  (let ((last (position (archive-item-section new) items :key #'archive-item-section :test #'string= :from-end t)))
-    (append (subseq items 0 (if last (1+ last) 0)) (list new) (nthcdr (if last (1+ last) 0) items))))
+  (let ((last (position (archive-item-section new) items :key #'archive-item-section
+                        :test #'string= :from-end t)))
+    (append (subseq items 0 (if last (1+ last) 0)) (list new)
+            (nthcdr (if last (1+ last) 0) items))))
 
 (defun archive-change-named (items section key)
   "ITEMS after the person has given a value to KEY of SECTION."
-  (let ((item (or (archive-item-of items section key) (make-archive-item :section section :key key :text nil))))
+  (let ((item (or (archive-item-of items section key)
+                  (make-archive-item :section section :key key :text nil))))
     (setf (archive-item-text item) (archive-new-text item))
-    (if (or (null (archive-item-text item)) (member item items)) items (archive-with-item items item))))
+    (if (or (null (archive-item-text item)) (member item items))
+        items
+        (archive-with-item items item))))
 
 (defun archive-change (kind items answer)
   "ITEMS after the change that ANSWER asks for: a number of the echo, or a key."
-  (let ((number (and (plusp (length answer)) (every #'digit-char-p answer) (< (length answer) 5) (parse-integer answer))))
+  (let ((number (and (plusp (length answer)) (every #'digit-char-p answer) (< (length answer) 5)
+                     (parse-integer answer))))
     (multiple-value-bind (section key) (archive-named-key kind answer items)
       (cond ((and number (<= 1 number (length items)))
-             (let ((item (nth (1- number) items))) (setf (archive-item-text item) (archive-new-text item)))
+             (let ((item (nth (1- number) items)))
+               (setf (archive-item-text item) (archive-new-text item)))
              items)
             (key (archive-change-named items section key))
-            (t (archive-say "  Type a number from 1 to ~d, a key such as field, or a section and its key such as body 1: inertia."
+            (t (archive-say "  Type a number from 1 to ~d, a key such as field, or a section and ~
+                             its key such as body 1: inertia."
                             (length items))
                items)))))
 
 (defun archive-ask-changes (kind items trial)
-  "Shows the description until the person is content and it passes all checks; returns its text. What the function that was
-called finds wrong with it is shown too, and may be kept."
+  "Shows the description until the person is content and it passes all checks; returns its text.
+What the function that was called finds wrong with it is shown too, and may be kept."
   (loop
     (archive-echo items)
     (let* ((text (archive-text-of-answers kind items))
@@ -85,7 +99,10 @@ called finds wrong with it is shown too, and may be kept."
            (trouble (or fault (funcall trial text))))
       (when trouble (archive-say "  ~a" trouble))
       (let ((answer (archive-ask-line
-                     (format nil "Number or key of an item to change~:[ [Enter: ~:[all is right~;keep it so~]]~;~]" fault trouble))))
+                     (format nil
+                             "Number or key of an item to change~:[ ~
+                              [Enter: ~:[all is right~;keep it so~]]~;~]"
+                             fault trouble))))
         (if (and (string= answer "") (not fault))
             (return text)
             (setq items (archive-change kind items answer)))))))
@@ -102,15 +119,17 @@ called finds wrong with it is shown too, and may be kept."
         (return file)))))
 
 (defun archive-dialog (name kinds trial)
-  "Asks for the description of a system of one of KINDS for the function NAME; returns the path of the archive written. TRIAL
-tells what is wrong with a text, or nil."
+  "Asks for the description of a system of one of KINDS for the function NAME; returns the path of
+the archive written. TRIAL tells what is wrong with a text, or nil."
   (let ((*archive-fresh-input* (null $load_pathname)) (*archive-asked* '()))
-    (archive-say "~a: description of a system. ? explains a question, Enter takes the answer in [ ], . takes them all to the end of a section."
+    (archive-say "~a: description of a system. ? explains a question, Enter takes the answer in ~
+                  [ ], . takes them all to the end of a section."
                  name)
     (let* ((kind (archive-ask-kind kinds))
            (sections (archive-ask-sections kind))
            (text (archive-ask-changes kind (append (archive-ask-title kind) sections) trial))
            (file (archive-ask-file kind)))
       (archive-write-new file text)
-      (archive-say "The description is in ~a. The same again without questions:~%~a(\"~a\");" file name file)
+      (archive-say "The description is in ~a. The same again without questions:~%~a(\"~a\");"
+                   file name file)
       file)))

@@ -42,7 +42,8 @@
        (archive-run (archive-call-on public archive '() options))))))
 
 (defun archive-call-system (public positional options)
-  (archive-run (archive-call-on public (archive-open-system (car positional)) (cdr positional) options)))
+  (archive-run (archive-call-on public (archive-open-system (car positional)) (cdr positional)
+                                options)))
 
 (defun archive-call-on (public archive trailing options)
   "The call of PUBLIC on ARCHIVE with what follows the system."
@@ -64,7 +65,8 @@
   (setq *core-started* (get-internal-real-time))
   (core-guarded (archive-call-facts call)
                 (lambda ()
-                  (prog1 (archive-abbreviated call (archive-value call (core-public-name (archive-call-public call))))
-                    (archive-save-steps call)))))
+                  (let ((target (core-public-name (archive-call-public call))))
+                    (prog1 (archive-abbreviated call (archive-value call target))
+                      (archive-save-steps call))))))
 
 (setq *core-dispatcher* #'archive-dispatch)

@@ -16,7 +16,8 @@
   (if (member (archive-form-kind e) '(:list :matrix))
       (cons (car e) (mapcar (lambda (part)
                               (unless (member (archive-form-kind part) '(:scalar :list :matrix))
-                                (archive-refuse "arithmetic with a list that holds more than expressions"))
+                                (archive-refuse "arithmetic with a list that holds more than ~
+                                                 expressions"))
                               (archive-over-elements function part))
                             (cdr e)))
       (funcall function e)))

@@ -2,9 +2,10 @@
 ;;; The table of keys: every section and key of an archive, once, with kind of system, type,
 ;;; default, help and question. The check, the dialog, the messages and the table in
 ;;; doc/archive.md all come from here; plain data, no Maxima in it. A row is (name type default
-;;; help question). The default is text as it would stand in the archive; nil where the key may be
-;;; absent; :required; (:when key value) required if that key has that value; (:unless key)
-;;; required if that is absent; (:with key text) a default that makes sense beside that key only.
+;;; help question), the help a format's control without arguments. The default is text as it
+;;; would stand in the archive; nil where the key may be absent; :required; (:when key value)
+;;; required if that key has that value; (:unless key) required if that is absent; (:with key
+;;; text) a default that makes sense beside that key only.
 
 (in-package :maxima)
 
@@ -82,13 +83,15 @@
      ("momenta" :assignments "[]"
       "names or values of momenta by coordinate, such as [phi = p]; some or all"
       "Momenta by coordinate")
-     ("constraints" :vanishing "[]" "holonomic constraints, on coordinates and time" "Holonomic constraints")
+     ("constraints" :vanishing "[]" "holonomic constraints, on coordinates and time"
+      "Holonomic constraints")
      ("nonholonomic" :vanishing "[]"
       "constraints linear in the velocities" "Nonholonomic constraints"))
 
     (("system" ("circuit"))
      ("sign" :sign "passive"
-      "passive: a positive resistance takes energy; generator: it feeds energy; a graph implies generator"
+      "passive: a positive resistance takes energy; generator: it feeds energy; ~
+       a graph implies generator"
       "Sign convention")
      ("graph" :graph nil
       "the branches as a list of pairs of nodes, instead of [branches]" "Graph as a list")
@@ -139,7 +142,8 @@
     (("body" ("mechanical"))
      ("parent" :parent "0" "body or frame that carries this body; 0 is the fixed axes" "Parent")
      ("axes" :axes "[]"
-      "axes of the turns in their order, each carried by the turns before it; [] for a body that only slides"
+      "axes of the turns in their order, each carried by the turns before it; ~
+       [] for a body that only slides"
       "Axes of the turns")
      ("angles" :expressions "[]"
       "angles of the turns, right-handed, one for each axis" "Angles of the turns")
@@ -152,7 +156,8 @@
       "centre of mass, in the body's axes" "Centre of mass, in the body's axes")
      ("mass" :expression :required "mass of the body; 0 for axes that carry others" "Mass")
      ("inertia" :inertia nil
-      "tensor of inertia about the joint, in the body's axes; a point mass at the centre unless given"
+      "tensor of inertia about the joint, in the body's axes; ~
+       a point mass at the centre unless given"
       "Inertia about the joint")
      ("inertia_centre" :inertia nil
       "tensor of inertia about the centre of mass, instead" "Inertia about the centre of mass")
@@ -162,7 +167,8 @@
       "turn of a body of revolution about an axis of its own, which the body's axes do not follow"
       "Own spin")
      ("rotor" :rotor nil
-      "for a body of one axis whose angle is no coordinate: of given momentum h, speed w or torque Q"
+      "for a body of one axis whose angle is no coordinate: ~
+       of given momentum h, speed w or torque Q"
       "Rotor"))
 
     (("frame" ("mechanical"))
@@ -210,7 +216,8 @@
   (loop for ((section kinds) . rows) in *archive-key-rows*
         append (loop for (name type default help question) in rows
                      collect (make-archive-key :section section :kinds kinds :name name :type type
-                                               :default default :help help :question question))))
+                                               :default default :help (format nil help)
+                                               :question question))))
 
 (defun archive-serves-p (kinds kind)
   (or (eq kinds :all) (member kind kinds :test #'string=)))

@@ -26,7 +26,8 @@
     (archive-expect-name reader (cadr places) variable "the variable of a derivative")
     (unless (and (integerp order) (<= 1 order *archive-nesting*))
       (archive-fault reader (caddr places)
-                     "expected the order of a derivative, an integer from 1 to ~d" *archive-nesting*))
+                     "expected the order of a derivative, an integer from 1 to ~d"
+                     *archive-nesting*))
     (when (mnump e)
       (archive-fault reader (car places) "the derivative of a number"))
     (archive-derivative e variable order)))

@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The known name that a misspelt one is most likely meant to be, by the number of letters put in, left out, exchanged or
-;;; swapped (Damerau and Levenshtein's distance).
+;;; The known name that a misspelt one is most likely meant to be, by the number of letters put in,
+;;; left out, exchanged or swapped (Damerau and Levenshtein's distance).
 
 (in-package :maxima)
 

@@ -117,7 +117,8 @@
            (right (archive-expect-side reader from (archive-parse-sum! reader))))
       (when (archive-relation-of reader)
         (archive-fault reader (reader-from reader)
-                       "found ~a after a comparison; comparisons do not chain, write each one by itself"
+                       "found ~a after a comparison; comparisons do not chain, write each one by ~
+                        itself"
                        (archive-token-shown reader)))
       (archive-inert operator (list left right)))))
 
@@ -220,7 +221,8 @@
   (unless (eq (reader-kind reader) kind)
     (multiple-value-bind (line column) (archive-reader-place reader opened)
       (archive-fault reader (reader-from reader)
-                     "found ~a, expected an operator, a comma or ~a (the bracket opened at line ~d, column ~d)~a"
+                     "found ~a, expected an operator, a comma or ~a (the bracket opened at line ~
+                      ~d, column ~d)~a"
                      (archive-token-shown reader) sign line column
                      (if (eq (reader-kind reader) :end)
                          "; a value continued on the next line is indented" ""))))
@@ -251,7 +253,8 @@
   (let ((name (reader-value reader)) (primes (reader-primes reader)) (from (reader-from reader)))
     (when (member name *archive-keywords* :test #'string=)
       (archive-fault reader from
-                     "found `~a', expected a value: the word is reserved and cannot be a name" name))
+                     "found `~a', expected a value: the word is reserved and cannot be a name"
+                     name))
     (archive-next-token! reader)
     (cond ((plusp primes) (archive-primed-name reader name primes from))
           ((eq (reader-kind reader) :open)
@@ -261,7 +264,8 @@
           ((string= name "false") nil)
           ((member (reader-kind reader) '(:quote))
            (archive-fault reader (reader-from reader)
-                          "found ', expected an operator: a time derivative's ' stands directly after the name"))
+                          "found ', expected an operator: a time derivative's ' stands directly ~
+                           after the name"))
           (t (core-read-symbol (archive-symbol name))))))
 
 (defun archive-primed-name (reader name primes from)
@@ -272,7 +276,9 @@
     (archive-fault reader from "more than ~d signs ' after a name" *archive-nesting*))
   (when (eq (reader-kind reader) :open)
     (archive-fault reader (reader-from reader)
-                   "found ( after ~a', expected an operator: ' stands after names of coordinates only" name))
+                   "found ( after ~a', expected an operator: ' stands after names of coordinates ~
+                    only"
+                   name))
   (list '(%derivative simp) (core-read-symbol (archive-symbol name)) '$t primes))
 
 (defun archive-parse-noun! (reader)
@@ -378,4 +384,6 @@ line column)."
   (loop for (name line column) in calls
         unless (member name known :test #'string=)
           do (archive-fault-at file line column
-                               "found the function ~a, which is neither one of the archive's nor named in `functions'" name)))
+                               "found the function ~a, which is neither one of the archive's nor ~
+                                named in `functions'"
+                               name)))

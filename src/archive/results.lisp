@@ -152,7 +152,8 @@ it should have."
   "ITEMS, texts, in brackets: on one line where they fit, else a line for each, so that a person
 can read them."
   (let ((line (format nil "~a~{~a~^, ~}~a" open items close)))
-    (if (and (<= (+ indent (length line)) *archive-result-width*) (notany (lambda (item) (find #\Newline item)) items))
+    (if (and (<= (+ indent (length line)) *archive-result-width*)
+             (notany (lambda (item) (find #\Newline item)) items))
         line
         (format nil (format nil "~~a~~{~~a~~^,~~%~~~d@t~~}~~a" (+ indent 1)) open items close))))
 
@@ -161,10 +162,12 @@ can read them."
   (let ((before (char text (1- position))))
     (and (find (char text position) "+-")
          (or (alphanumericp before) (find before ")]'_"))
-         (not (and (char-equal before #\e) (> position 1) (digit-char-p (char text (- position 2))))))))
+         (not (and (char-equal before #\e) (> position 1)
+                   (digit-char-p (char text (- position 2))))))))
 
 (defun archive-line-end (text start room)
-  "Where the line of TEXT from START ends: at the last break that leaves it within ROOM letters, or at the first."
+  "Where the line of TEXT from START ends: at the last break that leaves it within ROOM letters,
+or at the first."
   (let ((end nil))
     (loop for position from (1+ start) below (length text)
           until (and end (> (- position start) room))
@@ -172,7 +175,8 @@ can read them."
           finally (return (and end (> (- (length text) start) room) end)))))
 
 (defun archive-folded (text indent)
-  "TEXT, a long sum, on several lines that begin in column INDENT; a text with strings is left as it is."
+  "TEXT, a long sum, on several lines that begin in column INDENT; a text with strings is left as
+it is."
   (if (find #\" text)
       text
       (with-output-to-string (out)

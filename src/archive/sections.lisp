@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/tokens" "archive/parser" "archive/bytes"))
+  (core-require "archive/tokens" "archive/parser" "archive/bytes" "archive/rows"))
 
 (defstruct (archive-sheet (:conc-name sheet-))
   "The TEXT of FILE, its line end, and its sections in their order."
@@ -27,11 +27,6 @@ CALLS, the open functions in it (name line column)."
   (key nil) (line 1) (column 1) (start 0) (end 0) (from 0) (to 0) (value-line 1) (value-column 1)
   (sheet nil)
   (value nil) (parsed nil) (calls '()))
-
-(defparameter *archive-row-sections*
-  '(("branches" . archive-parse-branch) ("couplings" . archive-parse-coupling)
-    ("transformers" . archive-parse-transformer))
-  "Sections whose entries are rows, and what parses a row.")
 
 ;; Lines
 
@@ -80,7 +75,8 @@ the next one begins."
          (name (and close (subseq text (1+ start) close))))
     (unless close
       (archive-line-fault sheet line start
-                          "found a section header without its closing ]; a list continued from the line above is indented"))
+                          "found a section header without its closing ]; a list continued from ~
+                           the line above is indented"))
     (let ((after (position-if-not #'archive-blank-p text :start (1+ close) :end end)))
       (when (and after (char/= (char text after) #\#))
         (archive-line-fault sheet line after
@@ -89,7 +85,8 @@ the next one begins."
     (unless (and (plusp (length name)) (archive-letter-p (char name 0))
                  (every (lambda (c) (or (archive-word-p c) (char= c #\Space))) name))
       (archive-line-fault sheet line (1+ start)
-                          "found [~a], expected the name of a section; a list continued from the line above is indented"
+                          "found [~a], expected the name of a section; a list continued from the ~
+                           line above is indented"
                           (archive-shown name)))
     (make-archive-section :name name :line (line-number line) :start start :end end)))
 
@@ -97,7 +94,8 @@ the next one begins."
   (let ((first (find (section-name section) sections :key #'section-name :test #'string=)))
     (cond ((string= (section-name section) "archive")
            (archive-line-fault sheet line (line-start line)
-                               "[archive] is not the name of a section: its keys stand before the first header"))
+                               "[archive] is not the name of a section: its keys stand before ~
+                                the first header"))
           (first
            (archive-line-fault sheet line (line-start line)
                                "the section [~a] stands twice, first in line ~d"
@@ -125,11 +123,13 @@ the next one begins."
          (key (string-right-trim '(#\Space #\Tab) (subseq text start (or sign comment)))))
     (unless sign
       (archive-line-fault sheet line start
-                          "found `~a', expected key = value; a value continued from the line above is indented"
+                          "found `~a', expected key = value; a value continued from the line ~
+                           above is indented"
                           (archive-shown key)))
     (unless (archive-name-p key)
       (archive-line-fault sheet line start
-                          "found `~a', expected a key (a letter, then letters, digits and _) before the ="
+                          "found `~a', expected a key (a letter, then letters, digits and _) ~
+                           before the ="
                           (archive-shown key)))
     (make-archive-entry :sheet sheet :key key :line (line-number line) :start start :end end
                         :from (1+ sign) :to end :value-line (line-number line)
@@ -158,7 +158,8 @@ the next one begins."
                  (cond ((> content start)
                         (unless entry
                           (archive-line-fault sheet line content
-                                              "an indented line continues the entry above, but there is none; begin in column 1"))
+                                              "an indented line continues the entry above, but ~
+                                               there is none; begin in column 1"))
                         (archive-continue-entry entry section line))
                        ((char= (char text content) #\[)
                         (setq section (archive-section-of-header sheet line) entry nil)
@@ -219,6 +220,14 @@ the next one begins."
               (archive-parse-row entry row)
               (archive-entry-parsed entry)))))))
 
+(defun archive-parse-row (entry parse)
+  "The row ENTRY as a Maxima list, or label = list; PARSE takes a reader on its first token."
+  (let* ((sheet (entry-sheet entry))
+         (reader (archive-open-text (sheet-text sheet) :file (sheet-file sheet)
+                                    :line (entry-line entry)
+                                    :start (entry-start entry) :end (entry-end entry))))
+    (archive-set-entry-value entry (list (funcall parse reader) (archive-reader-calls reader)))))
+
 (defun archive-entry-parsed (entry &key doubles relations)
   "The value of ENTRY, parsed when it is first asked for."
   (unless (entry-parsed entry)
@@ -250,159 +259,3 @@ the next one begins."
   "The open functions called in the description of SHEET: list of (name line column)."
   (loop for section in (sheet-sections sheet)
         append (loop for entry in (section-entries section) append (entry-calls entry))))
-
-;; Rows: fields apart by blanks
-
-(defun archive-parse-row (entry parse)
-  "The row ENTRY as a Maxima list, or label = list; PARSE takes a reader on its first token."
-  (let* ((sheet (entry-sheet entry))
-         (reader (archive-open-text (sheet-text sheet) :file (sheet-file sheet) :line
-                                    (entry-line entry)
-                                    :start (entry-start entry) :end (entry-end entry))))
-    (archive-set-entry-value entry (list (funcall parse reader) (archive-reader-calls reader)))))
-
-(defun archive-fields (reader)
-  "Ranges (from . to) of the fields from the reader's token on; blanks inside brackets and
-strings do not part fields."
-  (let* ((text (reader-text reader)) (end (reader-end reader)) (fields '())
-         (position (archive-skip-blanks text (reader-from reader) end)))
-    (loop while (< position end)
-          do (let ((to (archive-field-end reader position)))
-               (push (cons position to) fields)
-               (setq position (archive-skip-blanks text to end))))
-    (nreverse fields)))
-
-(defun archive-field-end (reader from)
-  (let ((text (reader-text reader)) (end (reader-end reader)) (depth 0) (position from))
-    (loop while (< position end)
-          do (let ((c (char text position)))
-               (cond ((char= c #\") (setq position (archive-string-end text position end)))
-                     ((find c "([{") (incf depth))
-                     ((find c ")]}") (decf depth))
-                     ((char= c #\#)
-                      (if (<= depth 0)
-                          (return)
-                          (setq position (or (position #\Newline text :start position :end end)
-                                             (1- end)))))
-                     ((and (<= depth 0) (find c '(#\Space #\Tab #\Newline #\Return))) (return))))
-             (incf position))
-    (min position end)))
-
-(defun archive-string-end (text from end)
-  "The place of the quotation mark that closes the string at FROM, or the last place before END."
-  (loop for position from (1+ from) below end
-        do (case (char text position)
-             (#\\ (incf position))
-             ((#\" #\Newline) (return position)))
-        finally (return (1- end))))
-
-(defun archive-field-value (reader field &key relations)
-  "The value of FIELD, a range of characters."
-  (multiple-value-bind (line column) (archive-reader-place reader (car field))
-    (let ((part (archive-open-text (reader-text reader) :file (reader-file reader) :line line
-                                   :column column
-                                   :start (car field) :end (cdr field))))
-      (let ((value (archive-parse-reader! part :relations relations)))
-        (unless (and relations (eq (archive-form-kind value) :relation))
-          (archive-expect-scalar part (car field) value))
-        (setf (reader-calls reader) (append (reader-calls part) (reader-calls reader)))
-        value))))
-
-(defun archive-parse-node! (reader)
-  "A node: an integer or a name."
-  (unless (or (and (eq (reader-kind reader) :number) (integerp (reader-value reader)))
-              (and (eq (reader-kind reader) :name) (zerop (reader-primes reader))))
-    (archive-fault reader (reader-from reader) "found ~a, expected a node (an integer or a name)"
-                   (archive-token-shown reader)))
-  (archive-parse-plain! reader))
-
-(defun archive-parse-plain! (reader)
-  "The integer or name the reader stands on."
-  (let ((value (reader-value reader)))
-    (when (member value *archive-keywords* :test #'equal)
-      (archive-fault reader (reader-from reader)
-                     "found `~a': the word is reserved and cannot be a name" value))
-    (archive-next-token! reader)
-    (if (stringp value) (core-symbol value) value)))
-
-(defun archive-parse-arrow! (reader)
-  "node -> node, as a list of two."
-  (let ((first (archive-parse-node! reader)))
-    (archive-expect! reader :arrow "->")
-    (list first (archive-parse-node! reader))))
-
-(defun archive-label-ahead-p (reader)
-  "True when the reader stands on a label: a name with a colon after it."
-  (let ((next (archive-skip-blanks (reader-text reader) (reader-to reader) (reader-end reader))))
-    (and (eq (reader-kind reader) :name)
-         (zerop (reader-primes reader))
-         (< next (reader-end reader))
-         (char= (char (reader-text reader) next) #\:))))
-
-(defun archive-parse-branch (reader)
-  "[label:] node -> node  type  value  [state]"
-  (let* ((label (and (archive-label-ahead-p reader)
-                     (prog1 (archive-parse-plain! reader) (archive-next-token! reader))))
-         (nodes (archive-parse-nodes-before-fields! reader))
-         (fields (archive-fields reader)))
-    (unless (cdr fields)
-      (archive-fault reader (reader-from reader)
-                     "found ~:[a type without value~;no type~], expected: node -> node  type  value  [state]"
-                     (null fields)))
-    (let ((row (archive-inert 'mlist
-                              (append nodes (mapcar (lambda (field)
-                                                      (archive-field-value reader
-                                                                           field)) fields)))))
-      (if label (archive-inert 'mequal (list label row)) row))))
-
-(defun archive-parse-nodes-before-fields! (reader)
-  "node -> node; the token after them may be the beginning of any field and is not looked at yet."
-  (let ((first (archive-parse-node! reader)))
-    (archive-expect! reader :arrow "->")
-    (let ((second (reader-value reader)) (to (reader-to reader)))
-      (archive-parse-node! (copy-archive-reader reader))
-      (setf (reader-from reader) to)
-      (list first (if (stringp second) (core-symbol second) second)))))
-
-(defun archive-parse-coupling (reader)
-  "label label  M, or label label  k = number"
-  (let ((fields (archive-fields reader)))
-    (unless (cddr fields)
-      (archive-fault reader (reader-from reader)
-                     "expected two labels and a value: L1 L2  M, or L1 L2  k = 0.9"))
-    (destructuring-bind (first second third &rest more) fields
-      (archive-inert 'mlist
-                     (list (archive-field-name reader first "the label of a branch")
-                           (archive-field-name reader second "the label of a branch")
-                           (archive-coupling-value reader third
-                                                   (if more (cdr (car (last more)))
-                                                       (cdr third))))))))
-
-(defun archive-field-name (reader field what)
-  (archive-expect-name reader (car field) (archive-field-value reader field) what))
-
-(defun archive-coupling-value (reader field to)
-  "The mutual inductance, or k = coefficient, that stands from FIELD to TO."
-  (let ((value (archive-field-value reader (cons (car field) to) :relations t)))
-    (when (and (eq (archive-form-kind value) :relation)
-               (not (and (eq (caar value) 'mequal) (eq (cadr value) '$k)
-                         (eq (archive-form-kind (caddr value)) :scalar))))
-      (archive-fault reader (car field) "expected a mutual inductance, or k = coefficient"))
-    value))
-
-(defun archive-parse-transformer (reader)
-  "node -> node : node -> node  ratio value"
-  (let ((first (archive-parse-arrow! reader)))
-    (archive-expect! reader :colon ":")
-    (let* ((second (archive-parse-nodes-before-fields! reader)) (fields (archive-fields reader)))
-      (unless (and (cdr fields)
-                   (string= "ratio"
-                            (subseq (reader-text reader) (car (first fields))
-                                    (cdr (first fields)))))
-        (archive-fault reader (reader-from reader)
-                       "expected: node -> node : node -> node  ratio value"))
-      (when (cddr fields)
-        (archive-fault reader (car (third fields))
-                       "found a second value after ratio; a value with blanks stands in ( )"))
-      (archive-inert 'mlist
-                     (append first second (list (archive-field-value reader (second fields))))))))

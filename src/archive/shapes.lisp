@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What kind of thing an expression is, number-like, relation, list, matrix, and the errors where another
-;;; kind was expected. Used while an expression is put together from its parts.
+;;; What kind of thing an expression is, number-like, relation, list, matrix, and the errors where
+;;; another kind was expected. Used while an expression is put together from its parts.
 
 (in-package :maxima)
 

@@ -43,12 +43,16 @@
     (cond ((archive-wanted-option name kind)
            (core-error "give the option ~a = .. as well" (archive-wanted-option name kind)))
           ((and archive (gethash name *core-publics*))
-           (core-error "~a is for ~{~a~^, ~} archives, and ~:[this description~;~:*~a~] is of kind ~a" name
-                       (core-public-kinds (gethash name *core-publics*)) (archive-path archive) kind))
+           (core-error "~a is for ~{~a~^, ~} archives, and ~:[this description~;~:*~a~] is of ~
+                        kind ~a"
+                       name (core-public-kinds (gethash name *core-publics*))
+                       (archive-path archive) kind))
           (archive
-           (core-error "~a is needed, and ~:[this description~;~:*~a~] does not give it; write ~a = .. into [system] or into the call"
+           (core-error "~a is needed, and ~:[this description~;~:*~a~] does not give it; write ~
+                        ~a = .. into [system] or into the call"
                        name (archive-path archive) name))
-          (t (core-error "~a is needed; give it as an argument or as an option ~a = .." name name)))))
+          (t (core-error "~a is needed; give it as an argument or as an option ~a = .."
+                         name name)))))
 
 (defun archive-wanted-option (name kind)
   "An option without which there is no rule for NAME in archives of KIND, or nil."
@@ -69,7 +73,8 @@
 (defun archive-collect-needs (call name need)
   (multiple-value-bind (value given) (gethash name (archive-call-given call))
     (let ((rule (archive-rule call name)))
-      (cond (given (push (format nil "~a = ~a" name (archive-spell value)) (archive-need-extras need)))
+      (cond (given
+             (push (format nil "~a = ~a" name (archive-spell value)) (archive-need-extras need)))
             ((equal name "description") (push "*" (archive-need-keys need)))
             ((null rule) (push name (archive-need-keys need)))
             (t (dolist (input (archive-rule-sources rule))
@@ -90,8 +95,10 @@
 
 (defun archive-add-needs (call need name)
   (let ((more (archive-needs call name)))
-    (setf (archive-need-keys need) (union (archive-need-keys need) (archive-need-keys more) :test #'equal)
-          (archive-need-extras need) (union (archive-need-extras need) (archive-need-extras more) :test #'equal))))
+    (setf (archive-need-keys need)
+          (union (archive-need-keys need) (archive-need-keys more) :test #'equal)
+          (archive-need-extras need)
+          (union (archive-need-extras need) (archive-need-extras more) :test #'equal))))
 
 (defun archive-add-edited (call name need)
   "A result edited by hand is itself something to depend on."
@@ -109,18 +116,22 @@
 (defun archive-options-of (call name)
   "The arguments and options of the call that NAME depends on, as one text."
   (format nil "~{~a~^, ~}"
-          (sort (remove-if #'archive-edited-extra-p (copy-list (archive-need-extras (archive-needs call name)))) #'string<)))
+          (sort (remove-if #'archive-edited-extra-p
+                           (copy-list (archive-need-extras (archive-needs call name))))
+                #'string<)))
 
 (defun archive-same-options-p (call name)
   "Whether the stored result NAME was made with this call's options."
-  (string= (archive-stored-options (archive-call-archive call) name) (archive-options-of call name)))
+  (string= (archive-stored-options (archive-call-archive call) name)
+           (archive-options-of call name)))
 
 (defun archive-digest-of (call name)
   "The digest `from' of the result NAME: what it was computed from."
   (let ((need (archive-needs call name)))
     (archive-from-digest (archive-call-archive call)
                          (union '("parameters") (archive-need-keys need) :test #'equal)
-                         (sort (remove-if (lambda (extra) (eql 0 (search (format nil "~a edited " name) extra)))
+                         (sort (remove-if (lambda (extra)
+                                            (eql 0 (search (format nil "~a edited " name) extra)))
                                           (copy-list (archive-need-extras need)))
                                #'string<))))
 
@@ -150,7 +161,8 @@ default."
 
 (defun archive-key-value (call key)
   (let ((equation (and (archive-call-archive call)
-                       (find (core-symbol key) (cdr (archive-description (archive-call-archive call)))
+                       (find (core-symbol key)
+                             (cdr (archive-description (archive-call-archive call)))
                              :key (lambda (e) (and (archive-equation-p e) (cadr e)))))))
     (values (and equation (caddr equation)) (and equation t))))
 
@@ -159,7 +171,8 @@ default."
 as the size of what is neglected, and count in no digest: a formula must not depend on them."
   (let ((hidden (mapcar #'core-symbol (remove "values" *archive-analysis-keys* :test #'equal))))
     (cons (car (archive-description (archive-call-archive call)))
-          (remove-if (lambda (e) (member (cadr e) hidden)) (cdr (archive-description (archive-call-archive call)))))))
+          (remove-if (lambda (e) (member (cadr e) hidden))
+                     (cdr (archive-description (archive-call-archive call)))))))
 
 (defun archive-stored-value (call name rule)
   "The stored result NAME where it is still good, else a new one."
@@ -177,14 +190,19 @@ as the size of what is neglected, and count in no digest: a formula must not dep
       (:edited
        (core-note "using [result ~a] as it was edited by hand" name)
        (values (archive-in-full call value) t))
-      (:stale (core-note "the description has changed since [result ~a] was computed; computing it again" name)
+      (:stale (core-note "the description has changed since [result ~a] was computed; computing ~
+                          it again"
+                         name)
        (archive-rule-value call name rule)))))
 
-(defun archive-named-options (text) (if (string= text "") "without options" (format nil "with ~a" text)))
+(defun archive-named-options (text)
+  (if (string= text "") "without options" (format nil "with ~a" text)))
 
 (defun archive-note-other-options (call name)
   "Says that the stored result NAME is not what is asked for, and what becomes of it."
-  (core-note "[result ~a] was computed ~a; computing it ~a~:[~; and leaving the section, which was edited by hand~]" name
+  (core-note "[result ~a] was computed ~a; computing it ~a~:[~; and leaving the section, which ~
+              was edited by hand~]"
+             name
              (archive-named-options (archive-stored-options (archive-call-archive call) name))
              (archive-named-options (archive-options-of call name))
              (archive-edited-digest (archive-call-archive call) name)))
@@ -223,7 +241,8 @@ or that this call only passes through."
          (began (get-internal-real-time)))
     (core-progress "computing ~a" name)
     (let ((value (core-apply-rule rule inputs)))
-      (when (gethash name *core-publics*) (archive-note-step call name value (archive-form-taken call rule)))
+      (when (gethash name *core-publics*)
+        (archive-note-step call name value (archive-form-taken call rule)))
       (archive-report-time call name began)
       value)))
 
@@ -256,14 +275,16 @@ or that this call only passes through."
 where there is only one."
   (let ((form (archive-value call "form" '$auto)))
     (cond ((equal (rule-given rule) *archive-program-form*) "program")
-          ((notany (lambda (input) (equal (archive-input-name input) "form")) (rule-inputs rule)) nil)
+          ((notany (lambda (input) (equal (archive-input-name input) "form")) (rule-inputs rule))
+           nil)
           (t (core-spelling (if (eq form '$auto) *core-level* form))))))
 
 (defun archive-note-step (call name value level)
   (when (and (archive-call-archive call) (archive-path (archive-call-archive call))
              (or (archive-option call "result" nil) (not (archive-keeps-section-p call name))))
     (push (make-archive-step :name name :value (archive-abbreviated call value)
-                             :from (archive-digest-of call name) :options (archive-options-of call name)
+                             :from (archive-digest-of call name)
+                             :options (archive-options-of call name)
                              :form level
                              :checks (reverse *core-checks*) :left-out (reverse *core-left-out*))
           (archive-call-new call))))
@@ -275,7 +296,9 @@ where there is only one."
                   (mapcar (lambda (step)
                             (list (archive-step-name step)
                                   :value (archive-step-value step) :from (archive-step-from step)
-                                  :options (archive-step-options step) :form (archive-step-form step)
-                                  :checks (archive-step-checks step) :left-out (archive-step-left-out step)))
+                                  :options (archive-step-options step)
+                                  :form (archive-step-form step)
+                                  :checks (archive-step-checks step)
+                                  :left-out (archive-step-left-out step)))
                           (reverse (archive-call-new call)))
                   (archive-option call "result" nil))))

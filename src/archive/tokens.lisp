@@ -31,8 +31,8 @@ token that the reader stands on."
   "A reader that stands on the first token of TEXT."
   (let ((reader (make-archive-reader :text (archive-simple-text text) :position start :start start
                                      :from start :to start
-                                     :end (or end (length text)) :file file :line line :column column
-                                     :doubles doubles)))
+                                     :end (or end (length text)) :file file :line line
+                                     :column column :doubles doubles)))
     (archive-next-token! reader)
     reader))
 
@@ -157,7 +157,8 @@ ends."
                (to (archive-digits-end text from end)))
           (when (= from to)
             (archive-fault reader position
-                           "`~a' after a number: the digits of an exponent are missing; write * for a product"
+                           "`~a' after a number: the digits of an exponent are missing; write * ~
+                            for a product"
                            (char text position)))
           (let ((size (if (> (- to from) 9) most-positive-fixnum
                           (parse-integer text :start from :end to))))
@@ -187,14 +188,16 @@ ends."
                                  exponent)))
       (when (and (< after end) (let ((c (char text after))) (or (archive-word-p c) (char= c #\.))))
         (archive-fault reader after
-                       "found `~a' directly after a number, expected an operator; write * for a product"
+                       "found `~a' directly after a number, expected an operator; write * for a ~
+                        product"
                        (archive-shown (string (char text after)))))
       (archive-token! reader :number after))))
 
 ;; Strings and names
 
 (defun archive-read-string! (reader)
-  "Takes the string at the reader's position; inside it \\\" is a quotation mark and \\\\ a backslash."
+  "Takes the string at the reader's position; inside it \\\" is a quotation mark and \\\\ a
+backslash."
   (let* ((text (reader-text reader)) (end (reader-end reader)) (from (reader-position reader))
          (at (1+ from)))
     (setf (reader-value reader)
