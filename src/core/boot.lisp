@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (defvar *core-root* nil "Folder of the repository, as a string that ends in a slash.")
-(defvar *core-loaded* (make-hash-table :test #'equal) "Part -> names of the Maxima functions it defined, or t for Lisp.")
+(defvar *core-loaded* (make-hash-table :test #'equal)
+  "Part -> names of the Maxima functions it defined, or t for Lisp.")
 (defvar *core-room-keys* (make-hash-table :test #'equal) "Room -> digest of its Lisp sources.")
 (defvar *core-archive* nil "The archive a call works on, while it runs.")
 
@@ -55,7 +56,8 @@
 
 (defun core-room-files (room)
   (sort (mapcar #'namestring
-                (directory (merge-pathnames "*.lisp" (core-pathname (format nil "~asrc/~a/" *core-root* room)))))
+                (directory (merge-pathnames "*.lisp" (core-pathname
+                                               (format nil "~asrc/~a/" *core-root* room)))))
         #'string<))
 
 (defun core-room-key (room)
@@ -69,13 +71,16 @@
   "A digest of all Lisp text that a part of ROOM may be built from: its own room, the core and the
 algebra."
   (let ((key 17))
-    (dolist (name (remove-duplicates (list "core" (if (equal room "archive") "core" "algebra") room) :test #'equal) key)
+    (dolist (name (remove-duplicates
+                   (list "core" (if (equal room "archive") "core" "algebra") room) :test #'equal)
+                  key)
       (setq key (logand #xfffffffffffffff (+ (* 131 key) (core-room-key name)))))))
 
 (defun core-quietly (function)
   "Calls FUNCTION with compiler chatter switched off."
   (let ((*standard-output* (make-broadcast-stream)) (*error-output* (make-broadcast-stream))
-        (*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil) (*merror-signals-$error-p* t)
+        (*compile-verbose* nil) (*compile-print* nil) (*load-verbose* nil)
+        (*merror-signals-$error-p* t)
         #+gcl (compiler::*cc* (concatenate 'string compiler::*cc* " -w")))
     (handler-bind ((warning #'muffle-warning)) (funcall function))))
 
@@ -84,9 +89,11 @@ algebra."
 file or none."
   (ignore-errors
    (ensure-directories-exist (core-pathname target))
-   (let* ((draft (format nil "~a.~a.~a" (subseq target 0 (position #\. target :from-end t)) (core-process-id)
+   (let* ((draft (format nil "~a.~a.~a" (subseq target 0 (position #\. target :from-end t))
+                         (core-process-id)
                          (pathname-type (compile-file-pathname "x.lisp"))))
-          (made (core-quietly (lambda () (compile-file (core-pathname source) :output-file (core-pathname draft))))))
+          (made (core-quietly (lambda () (compile-file (core-pathname source)
+                                                       :output-file (core-pathname draft))))))
      (when made (rename-file made (core-pathname target)))
      target)))
 
@@ -94,18 +101,23 @@ file or none."
   "Whether Lisp can be compiled here: GCL needs the C compiler it was built with, which a
 distribution may leave out."
   #-gcl t
-  #+gcl (let* ((command (string-left-trim " " compiler::*cc*)) (name (subseq command 0 (position #\Space command))))
-          (some (lambda (folder) (probe-file (concatenate 'string folder name))) '("" "/usr/bin/" "/usr/local/bin/" "/bin/"))))
+  #+gcl (let* ((command (string-left-trim " " compiler::*cc*))
+               (name (subseq command 0 (position #\Space command))))
+          (some (lambda (folder) (probe-file (concatenate 'string folder name)))
+                '("" "/usr/bin/" "/usr/local/bin/" "/bin/"))))
 
 (defun core-load-lisp (part source)
   (let* ((room (subseq part 0 (position #\/ part)))
          (folder (core-cache-folder))
          (target (and folder
-                      (format nil "~a~a-~36r.~a" folder (substitute #\- #\/ part) (core-part-key room)
+                      (format nil "~a~a-~36r.~a" folder (substitute #\- #\/ part)
+                              (core-part-key room)
                               (pathname-type (compile-file-pathname "x.lisp")))))
          (compiled (and target (or (core-existing-file target)
-                                   (and (core-compiler-p) (core-compile-to source target) (core-existing-file target))))))
-    (unless (and compiled (ignore-errors (core-quietly (lambda () (load (core-pathname compiled)))) t))
+                                   (and (core-compiler-p) (core-compile-to source target)
+                                        (core-existing-file target))))))
+    (unless (and compiled
+                 (ignore-errors (core-quietly (lambda () (load (core-pathname compiled)))) t))
       (load (core-pathname source)))
     t))
 
@@ -129,7 +141,10 @@ Returns their names."
         (unwind-protect
              (let ((lisp (core-existing-file (concatenate 'string source "lisp"))))
                (setf (gethash part *core-loaded*)
-                     (or (if lisp (core-load-lisp part lisp) (core-load-mac (concatenate 'string source "mac"))) t)
+                     (or (if lisp
+                             (core-load-lisp part lisp)
+                             (core-load-mac (concatenate 'string source "mac")))
+                         t)
                      done t))
           (unless done (remhash part *core-loaded*)))))))
 

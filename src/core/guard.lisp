@@ -12,17 +12,21 @@
 only.")
 
 (defparameter *core-kept-variables*
-  '($linenum $labels $inchar $outchar $linechar $context $contexts $activecontexts $error $error_syms $errormsg
-    $load_pathname $file_search_maxima $file_search_lisp $file_search_demo $file_search_tests $file_search_usage
-    $maxima_userdir $maxima_tempdir $maxima_objdir $features $% $%% $_ $__ $infolists $prompt $linel $stdin $stdout
-    $transcript $debugmode $showtime $lasttime $plot_options $gnuplot_command $gnuplot_view_args $gnuplot_term
-    $gnuplot_out_file $random $version $build_info $ttyoff $gensumnum $testsuite_files $share_testsuite_files)
+  '($linenum $labels $inchar $outchar $linechar $context $contexts $activecontexts $error
+    $error_syms $errormsg $load_pathname $file_search_maxima $file_search_lisp $file_search_demo
+    $file_search_tests $file_search_usage $maxima_userdir $maxima_tempdir $maxima_objdir
+    $features $% $%% $_ $__ $infolists $prompt $linel $stdin $stdout $transcript $debugmode
+    $showtime $lasttime $plot_options $gnuplot_command $gnuplot_view_args $gnuplot_term
+    $gnuplot_out_file $random $version $build_info $ttyoff $gensumnum $testsuite_files
+    $share_testsuite_files)
   "Variables that are not options of a computation, or whose change must last.")
 
 (defun core-with-values (names values function)
   "Calls FUNCTION while NAMES have VALUES, or none where VALUES run out. (GCL cannot load a
 compiled progv.)"
-  (let ((saved (mapcar (lambda (name) (if (boundp name) (list name (symbol-value name)) (list name))) names)))
+  (let ((saved (mapcar (lambda (name)
+                         (if (boundp name) (list name (symbol-value name)) (list name)))
+                       names)))
     (unwind-protect
          (progn
            (loop for name in names
@@ -34,7 +38,8 @@ compiled progv.)"
 (defun core-information-lists ()
   "The lists that Maxima keeps of what the user made: functions, rules, options set, ...; and the
 last `piece' of an expression."
-  (remove-if-not #'boundp (cons '$piece (set-difference (cdr $infolists) '($labels $contexts $activecontexts)))))
+  (remove-if-not #'boundp (cons '$piece (set-difference (cdr $infolists)
+                                                        '($labels $contexts $activecontexts)))))
 
 (defun core-default-options ()
   "Two lists: option variables that differ from Maxima's defaults, and the defaults."
@@ -53,7 +58,9 @@ last `piece' of an expression."
 (defun core-refuse-question (message &rest ignored)
   (declare (ignore ignored))
   (merror "~A" (format nil "undecided question: ~a"
-                       (remove #\Newline (core-words (if (and (consp message) (consp (car message))) (cdr message) (list message)))))))
+                       (remove #\Newline (core-words (if (and (consp message) (consp (car message)))
+                                                         (cdr message)
+                                                         (list message)))))))
 
 (defun core-without-questions (function)
   "Calls FUNCTION; where Maxima would ask the person something, an error is signalled instead."
@@ -84,14 +91,16 @@ last `piece' of an expression."
 the user's are left out."
   (let ((contradicted (core-contradicted facts)))
     (cond (contradicted
-           (core-warn "the archive says ~a; what you assumed in the session contradicts it and is not used here"
+           (core-warn "the archive says ~a; what you assumed in the session contradicts it and ~
+                       is not used here"
                       (core-words (list contradicted)))
            (with-new-context ('$global) (core-call-with-facts facts function)))
           (t (with-new-context () (core-call-with-facts facts function))))))
 
 (defun core-put-away (name)
   "Keeps the value of NAME for the next use of the guard, and unbinds it."
-  (setq *core-kept-values* (acons name (symbol-value name) (remove name *core-kept-values* :key #'car)))
+  (setq *core-kept-values* (acons name (symbol-value name)
+                                  (remove name *core-kept-values* :key #'car)))
   (makunbound name))
 
 (defun core-hide-new-values (before)
@@ -107,18 +116,25 @@ the user's are left out."
         (flet ((clean-values ()
                  (core-with-values
                   (append lists users (mapcar #'car *core-kept-values*))
-                  (mapcar (lambda (l) (if (listp (symbol-value l)) (copy-list (symbol-value l)) (symbol-value l))) lists)
+                  (mapcar (lambda (l) (if (listp (symbol-value l))
+                                          (copy-list (symbol-value l))
+                                          (symbol-value l)))
+                          lists)
                   (lambda ()
                     (loop for (name . value) in *core-kept-values* do (set name value))
                     (unwind-protect
                          (core-without-questions (lambda () (core-with-facts facts function)))
                       (core-hide-new-values users))))))
           (multiple-value-bind (names defaults) (core-default-options)
-            (core-with-values names defaults (lambda () (core-without-dependencies #'clean-values))))))))
+            (core-with-values names defaults
+                              (lambda () (core-without-dependencies #'clean-values))))))))
 
 (defun core-failure-text (condition)
   "What to tell the person of a Lisp error."
-  (format nil "~@[~a: ~]the computation failed inside (~a); please report it with the input that shows it" *core-function*
+  (format nil
+          "~@[~a: ~]the computation failed inside (~a); please report it with the input that ~
+           shows it"
+          *core-function*
           (remove #\Newline (princ-to-string condition))))
 
 (defun core-caught (function)
@@ -130,7 +146,9 @@ bindings are undone."
         (setq values (catch 'core-throw (with-errcatch-tag-$errors (funcall function))))
       (maxima-$error () (setq text (core-error-text)))
       #+sbcl (sb-sys:interactive-interrupt (c) (errlfun1 errcatch) (error c))
-      #+sbcl (storage-condition () (setq text (format nil "~@[~a: ~]memory is exhausted; give Maxima a larger heap, or a smaller system" *core-function*)))
+      #+sbcl (storage-condition ()
+               (setq text (format nil "~@[~a: ~]memory is exhausted; give Maxima a larger heap, ~
+                                       or a smaller system" *core-function*)))
       (error (condition) (setq text (core-failure-text condition))))
     (when text (errlfun1 errcatch))
     (values values text)))

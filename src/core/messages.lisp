@@ -20,7 +20,8 @@
   "ITEMS, strings and Maxima expressions, as one string on one line."
   (let (($display2d nil) ($stringdisp nil) ($lispdisp nil) ($linel 100000))
     (apply #'concatenate 'string
-           (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string))) items))))
+           (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string)))
+                   items))))
 
 (defun core-signal (text)
   (merror "~A" (if *core-function* (concatenate 'string *core-function* ": " text) text)))
@@ -74,9 +75,13 @@
 
 (defun $core_progress (&rest items) (core-progress "~a" (core-words items)) '$done)
 
-(defun $core_checked (&rest items) (pushnew (core-words items) *core-checks* :test #'string=) '$done)
+(defun $core_checked (&rest items)
+  (pushnew (core-words items) *core-checks* :test #'string=)
+  '$done)
 
-(defun $core_left_out (&rest items) (pushnew (core-words items) *core-left-out* :test #'string=) '$done)
+(defun $core_left_out (&rest items)
+  (pushnew (core-words items) *core-left-out* :test #'string=)
+  '$done)
 
 (defun core-factored () (setq *core-level* '$factored))
 
@@ -91,7 +96,9 @@
 
 (defun $core_get (record key &optional (default nil given))
   "The value of KEY in RECORD, a list of equations."
-  (let ((equation (find-if (lambda (e) (and (consp e) (eq (caar e) 'mequal) (core-key-equal key (cadr e)))) (cdr record))))
+  (let ((equation (find-if (lambda (e)
+                             (and (consp e) (eq (caar e) 'mequal) (core-key-equal key (cadr e))))
+                           (cdr record))))
     (cond (equation (caddr equation))
           (given default)
           (t (core-error "~a is missing" (core-section-name key))))))

@@ -11,7 +11,7 @@
 
 (defstruct core-public
   name
-  forms      ; list of (kind quantity ..): calls on expressions; &optional may stand among the quantities
+  forms      ; list of (kind quantity ..), calls on expressions; &optional may stand among them
   trailing   ; quantities that may follow a system: FirstApproximation(system, solution)
   options    ; names of the options besides the common ones
   kinds      ; kinds of archive the dialog may ask for
@@ -23,7 +23,8 @@
 (defun core-public (name &key forms trailing options kinds numerical)
   "States a public function. FORMS of calls on expressions; TRAILING arguments after a system."
   (setf (gethash name *core-publics*)
-        (make-core-public :name name :forms forms :trailing trailing :options options :kinds kinds :numerical numerical)))
+        (make-core-public :name name :forms forms :trailing trailing :options options :kinds kinds
+                          :numerical numerical)))
 
 (defun core-same-case-p (rule other)
   (and (equal (rule-kinds rule) (rule-kinds other)) (equal (rule-given rule) (rule-given other))))
@@ -35,13 +36,15 @@
 (defun core-rule (name kinds part function &rest inputs)
   "NAME is FUNCTION of PART applied to INPUTS: names, or (name default). KINDS is a list of kinds
 or :any."
-  (core-add-rule name (make-core-rule :kinds kinds :part part :function (core-symbol function) :inputs inputs)))
+  (core-add-rule name (make-core-rule :kinds kinds :part part :function (core-symbol function)
+                                      :inputs inputs)))
 
 (defun core-rule-given (option name kinds part function &rest inputs)
   "The same where OPTION is given, in the call or as a key of the archive; where it is (option
 value), only with that value; where it is :file, for systems that are files; where it is (:edited
 name), where the archive's result NAME was edited by hand."
-  (core-add-rule name (make-core-rule :kinds kinds :given option :part part :function (core-symbol function) :inputs inputs)))
+  (core-add-rule name (make-core-rule :kinds kinds :given option :part part
+                                      :function (core-symbol function) :inputs inputs)))
 
 (defun core-rule-same-as (name kinds other &key given)
   "NAME is the quantity or key OTHER under another name."
@@ -67,7 +70,8 @@ without $ inside."
     (if (and (plusp (length name)) (char= (char name 0) #\$)) (subseq name 1) name)))
 
 (defun core-rule-fits (rule kind given)
-  "Whether RULE serves an archive of KIND; GIVEN tells whether the call has an option, or (option value); or :file."
+  "Whether RULE serves an archive of KIND; GIVEN tells whether the call has an option, or (option
+value); or :file."
   (and (or (eq (rule-kinds rule) :any) (member kind (rule-kinds rule) :test #'equal))
        (or (null (rule-given rule)) (funcall given (rule-given rule)))))
 
