@@ -28,7 +28,8 @@
   "N/D, N collected where D is a number and it is shorter so."
   (let ((groups (and (atom d) (mapcar #'algebra-group-factors (algebra-groups-of-leaves n)))))
     (if (and groups (< (algebra-size-of-groups groups) (algebra-expanded-size n)))
-        (algebra-sum-of-products (mapcar (lambda (group) (algebra-group-expression group d)) groups))
+        (algebra-sum-of-products (mapcar (lambda (group) (algebra-group-expression group d))
+                                         groups))
         (algebra-general-quotient n d))))
 
 (defun algebra-size-of-groups (groups)
@@ -95,7 +96,8 @@
   "Whether P, whose first coefficient is positive, has a negative one."
   (if (atom p)
       (minusp p)
-      (loop for (nil coefficient) on (cdr p) by #'cddr thereis (algebra-mixed-signs-p coefficient))))
+      (loop for (nil coefficient) on (cdr p) by #'cddr
+            thereis (algebra-mixed-signs-p coefficient))))
 
 (defun algebra-group-expression (factors d)
   "The list of expressions of the FACTORS that are not 1, the number over D."

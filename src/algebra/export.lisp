@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; A program as source text in C, Fortran, Python or Lisp: a routine NAME(x, y), x the inputs, y the
-;;; outputs one after the other, matrices row by row, and z the work array; the head of the text
+;;; A program as source text in C, Fortran, Python or Lisp: a routine NAME(x, y), x the inputs, y
+;;; the outputs one after the other, matrices row by row, and z the work array; the head of the text
 ;;; lists them. The assignments go into functions of a few hundred each, since compilers take far
 ;;; more than linear time for one long function. See export-program first.
 
@@ -90,7 +90,8 @@
                             "{"))
     :end (lambda (name k) (declare (ignore name k)) (algebra-lines "}" ""))
     :last-lines (lambda (name nx ny nz parts)
-                  (format nil "void ~a(const double x[~d], double y[~d])~%{~%  double z[~d];~%~{~a~}}~%"
+                  (format nil
+                          "void ~a(const double x[~d], double y[~d])~%{~%  double z[~d];~%~{~a~}}~%"
                           name (max nx 1) (max ny 1) nz
                           (loop for k in (algebra-part-numbers parts)
                                 collect (format nil "  ~a_~d(x, y, z);~%" name k)))))
@@ -212,7 +213,8 @@
                        ((eq (car value) :list)
                         (loop for nil in (cdr value) for k from 1 collect (indexed name k)))
                        (t (loop for row in (cdr value) for i from 1
-                                append (loop for nil in row for j from 1 collect (indexed name i j))))))))
+                                append (loop for nil in row for j from 1
+                                             collect (indexed name i j))))))))
 
 (defun algebra-plain-text (e)
   (remove #\' (substitute #\Space #\Newline (coerce (mstring e) 'string))))
@@ -220,7 +222,8 @@
 (defun algebra-write-head (stream language name inputs outputs operations)
   (flet ((line (format &rest arguments)
            (format stream "~a ~?~%" (algebra-language-comment language) format arguments)))
-    (line "dynarch: program ~a, ~d operations; made by ExportProgram, replaced when it is made anew."
+    (line "dynarch: program ~a, ~d operations; made by ExportProgram, replaced when it is made ~
+           anew."
           name operations)
     (line "Inputs:")
     (loop for input in inputs

@@ -90,7 +90,8 @@
       (algebra-written-number element)))
 
 (defun algebra-written-node (node written)
-  (let ((x (funcall written (algebra-node-left node))) (y (funcall written (algebra-node-right node))))
+  (let ((x (funcall written (algebra-node-left node)))
+        (y (funcall written (algebra-node-right node))))
     (case (algebra-node-operation node)
       (:add (algebra-written-pair 'mplus x y))
       (:subtract (algebra-written-pair 'mplus x (mul -1 y)))
@@ -133,7 +134,8 @@
            (third (find-if (lambda (e)
                              (and (consp e) (eq (caar e) 'mequal) (eq (second e) key)))
                            (cdr record))))
-      (core-error "a program is a record with inputs, assignments, outputs and operations; ~a is missing"
+      (core-error "a program is a record with inputs, assignments, outputs and operations; ~a is ~
+                   missing"
                   (core-spelling key))))
 
 (defun algebra-read-program (record)
@@ -178,7 +180,8 @@
   (with-algebra-program
     (destructuring-bind (inputs outputs) (algebra-read-program record)
       (declare (ignore inputs))
-      (let ((values (algebra-program-values (algebra-all-outputs outputs) (algebra-point point) exactly)))
+      (let ((values (algebra-program-values (algebra-all-outputs outputs) (algebra-point point)
+                                            exactly)))
         (flet ((next (element) (declare (ignore element))
                  (let ((x (pop values))) (if (rationalp x) (algebra-written-number x) x))))
           (cons '(mlist simp)

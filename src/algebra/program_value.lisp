@@ -13,7 +13,8 @@
   "The values of ELEMENTS; POINT is a list of (expression . number)."
   (let ((values (make-hash-table)) (turns (make-hash-table)))
     (flet ((value (element)
-             (cond ((not (algebra-node-p element)) (if exactly element (coerce element 'double-float)))
+             (cond ((not (algebra-node-p element))
+                    (if exactly element (coerce element 'double-float)))
                    (t (gethash (algebra-node-index element) values)))))
       (dolist (node (algebra-live-nodes elements))
         (setf (gethash (algebra-node-index node) values)
@@ -50,7 +51,9 @@
 
 (defun algebra-exact-root (x)
   (let ((root (and (>= x 0) (/ (isqrt (numerator x)) (isqrt (denominator x))))))
-    (if (and root (= (* root root) x)) root (core-error "the square root of ~a is not rational" x))))
+    (if (and root (= (* root root) x))
+        root
+        (core-error "the square root of ~a is not rational" x))))
 
 (defun algebra-at-point (expression point)
   (cdr (assoc expression point :test #'alike1)))
@@ -68,7 +71,8 @@
   (cond ((eql element 0) (cons 1 0))
         ((not (algebra-node-p element)) (core-error "the sine of ~a is not rational" element))
         ((gethash (algebra-node-index element) turns))
-        (t (setf (gethash (algebra-node-index element) turns) (algebra-new-turn element point turns)))))
+        (t (setf (gethash (algebra-node-index element) turns)
+                 (algebra-new-turn element point turns)))))
 
 (defun algebra-new-turn (node point turns)
   (let ((left (algebra-node-left node)) (right (algebra-node-right node)))

@@ -12,7 +12,8 @@
 
 (defvar *algebra-may-give-up* nil "true: the guard throws algebra-too-large, no error")
 
-(defvar *algebra-advice* nil "what else helps against too large a result: another form, where there is one")
+(defvar *algebra-advice* nil
+  "what else helps against too large a result: another form, where there is one")
 
 (defun algebra-size (e)
   (let ((nodes 0))
