@@ -31,28 +31,32 @@
 ;;; Stationary sets
 
 (core-public "StationaryEquations" :forms '(("function" "K" "variables")) :kinds *analysis-motions*)
-(core-rule "StationaryEquations" '("function") "analysis/stationary" "analysis_stationary_equations" "K" "variables")
-(core-rule "StationaryEquations" *analysis-motions* "analysis/stationary" "analysis_stationary_routh"
-  "RouthFunction" "remaining_coordinates")
+(core-rule "StationaryEquations" '("function") "analysis/stationary"
+  "analysis_stationary_equations" "K" "variables")
+(core-rule "StationaryEquations" *analysis-motions* "analysis/stationary"
+  "analysis_stationary_routh" "RouthFunction" "remaining_coordinates")
 
 (core-public "StationarySolutions"
   :forms '(("function" "K" "variables")) :options '("unknowns" "where") :kinds *analysis-motions*)
 (core-rule "StationarySolutions" '("function") "analysis/stationary" "analysis_stationary_solutions"
   "K" "variables" *analysis-unknowns* *analysis-where*)
-(core-rule "StationarySolutions" *analysis-motions* "analysis/stationary" "analysis_stationary_motions"
+(core-rule "StationarySolutions" *analysis-motions* "analysis/stationary"
+  "analysis_stationary_motions"
   "RouthFunction" "remaining_coordinates" *analysis-unknowns* *analysis-where*)
 
 (core-public "InvariantManifolds"
-  :forms '(("function" "K" "variables")) :options '("extend" "on" "unknowns" "cyclic") :kinds *analysis-motions*)
-(core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds" "analysis_extended_routh"
-  "RouthFunction" "remaining_coordinates" "extend" "cyclic_integrals")
-(core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds" "analysis_extended_function"
-  "K" "variables" "extend")
+  :forms '(("function" "K" "variables")) :options '("extend" "on" "unknowns" "cyclic")
+  :kinds *analysis-motions*)
+(core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds"
+  "analysis_extended_routh" "RouthFunction" "remaining_coordinates" "extend" "cyclic_integrals")
+(core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds"
+  "analysis_extended_function" "K" "variables" "extend")
 (core-rule "InvariantManifolds" '("function") "analysis/manifolds" "analysis_invariant_manifolds"
   "K" "variables" *analysis-unknowns* (list "on" *analysis-none*))
 
 (core-public "Equilibria"
-  :forms '(("equations" "equations" "variables")) :options '("unknowns" "where") :kinds *analysis-kinds*)
+  :forms '(("equations" "equations" "variables")) :options '("unknowns" "where")
+  :kinds *analysis-kinds*)
 (core-rule "Equilibria" *analysis-states* "analysis/equilibria" "analysis_equilibria"
   "state_equations" *analysis-variables* *analysis-unknowns* *analysis-where*
   *analysis-laws*)
@@ -63,17 +67,23 @@
 ;;; First approximation and criteria
 
 (core-public "FirstApproximation"
-  :forms '(("lagrangian" "Lagrangian" "coordinates" "solution") ("equations" "equations" "solution"))
+  :forms '(("lagrangian" "Lagrangian" "coordinates" "solution")
+           ("equations" "equations" "solution"))
   :trailing '("solution") :options *analysis-linear-options* :kinds *analysis-kinds*)
-(core-rule "FirstApproximation" *analysis-states* "analysis/first_approximation" "analysis_first_approximation_state"
+(core-rule "FirstApproximation" *analysis-states* "analysis/first_approximation"
+  "analysis_first_approximation_state"
   "state_equations" *analysis-variables* "solution" *analysis-where*
   *analysis-laws* *analysis-unknowns*)
-(core-rule "FirstApproximation" *analysis-motions* "analysis/first_approximation" "analysis_first_approximation_motion"
+(core-rule "FirstApproximation" *analysis-motions* "analysis/first_approximation"
+  "analysis_first_approximation_motion"
   "LagrangeEquations" "coordinates" "solution" *analysis-where* *analysis-laws*)
-(core-rule-given '("function" $routh) "FirstApproximation" *analysis-kinds* "analysis/first_approximation_momenta"
+(core-rule-given '("function" $routh) "FirstApproximation" *analysis-kinds*
+  "analysis/first_approximation_momenta"
   "analysis_first_approximation_routh"
-  "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution" *analysis-where* *analysis-laws*)
-(loop for (given kinds) in `((("function" $hamilton) ,*analysis-kinds*) ("hamiltonian" ("lagrangian")))
+  "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
+  *analysis-where* *analysis-laws*)
+(loop for (given kinds) in `((("function" $hamilton) ,*analysis-kinds*)
+                             ("hamiltonian" ("lagrangian")))
       do (core-rule-given given "FirstApproximation" kinds "analysis/first_approximation_momenta"
            "analysis_first_approximation_hamilton"
            "HamiltonEquations" "coordinates" "solution" *analysis-where* *analysis-laws*))
@@ -81,29 +91,35 @@
 (core-rule-field "A" *analysis-kinds* "FirstApproximation" "A")
 (loop for part in '("M" "S" "W")
       do (core-rule-field part *analysis-kinds* "FirstApproximation" part)
-         (core-rule-given '("function" $hamilton) part *analysis-kinds* "analysis/first_approximation_momenta"
+         (core-rule-given '("function" $hamilton) part *analysis-kinds*
+           "analysis/first_approximation_momenta"
            "analysis_no_second_order"))
 
 (core-public "CharacteristicPolynomial"
   :forms '(("matrices" "A" "lambda") ("pencil" "M" "S" "W" "lambda"))
-  :trailing '("solution") :options (cons "lambda" *analysis-linear-options*) :kinds *analysis-kinds*)
+  :trailing '("solution") :options (cons "lambda" *analysis-linear-options*)
+  :kinds *analysis-kinds*)
 (core-rule "CharacteristicPolynomial" (cons "matrices" *analysis-states*) "analysis/characteristic"
   "analysis_characteristic_polynomial" "A" *analysis-lambda*)
 (core-rule "CharacteristicPolynomial" (cons "pencil" *analysis-motions*) "analysis/characteristic"
   "analysis_pencil_polynomial" "M" "S" "W" *analysis-lambda*)
 (loop for given in '(("function" $hamilton) "hamiltonian")
-      do (core-rule-given given "CharacteristicPolynomial" *analysis-motions* "analysis/characteristic"
+      do (core-rule-given given "CharacteristicPolynomial" *analysis-motions*
+           "analysis/characteristic"
            "analysis_characteristic_polynomial" "A" *analysis-lambda*))
-(core-rule-given '("function" $routh) "CharacteristicPolynomial" *analysis-states* "analysis/characteristic"
+(core-rule-given '("function" $routh) "CharacteristicPolynomial" *analysis-states*
+  "analysis/characteristic"
   "analysis_pencil_polynomial" "M" "S" "W" *analysis-lambda*)
 
 (core-rule-same-as "polynomial" *analysis-kinds* "CharacteristicPolynomial")
 
 (loop for (name part function) in '(("HurwitzMinors" "analysis/hurwitz" "analysis_hurwitz_minors")
                                     ("RouthHurwitz" "analysis/hurwitz" "analysis_routh_hurwitz")
-                                    ("LienardChipart" "analysis/lienard_chipart" "analysis_lienard_chipart"))
+                                    ("LienardChipart" "analysis/lienard_chipart"
+                                     "analysis_lienard_chipart"))
       do (core-public name :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
-                           :options (cons "lambda" *analysis-linear-options*) :kinds *analysis-kinds*)
+                           :options (cons "lambda" *analysis-linear-options*)
+                           :kinds *analysis-kinds*)
          (core-rule name :any part function "polynomial" *analysis-lambda*))
 
 (core-public "Stability"
@@ -114,41 +130,49 @@
   *analysis-laws* *analysis-unknowns*)
 (core-rule "Stability" *analysis-motions* "analysis/energy" "analysis_stability_lagrangian"
   "Lagrangian" "coordinates" "LagrangeEquations" "solution" *analysis-where* *analysis-laws*
-  '("rayleigh" 0) (list "forces" *analysis-none*) (list "constraints" *analysis-none*) (list "nonholonomic" *analysis-none*))
+  '("rayleigh" 0) (list "forces" *analysis-none*) (list "constraints" *analysis-none*)
+  (list "nonholonomic" *analysis-none*))
 
 ;;; The method of Routh and Lyapunov
 
-(core-public "SecondVariation" :forms '(("function" "K" "variables" "solution" "&optional" "integrals")) :options '("manifold"))
+(core-public "SecondVariation"
+  :forms '(("function" "K" "variables" "solution" "&optional" "integrals")) :options '("manifold"))
 (core-rule "SecondVariation" '("function") "analysis/variation" "analysis_second_variation"
   "K" "variables" "solution" (list "integrals" *analysis-none*) (list "manifold" *analysis-none*))
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
   :options '("where" "unknowns" "multipliers") :kinds '("equations" "poisson"))
-(core-rule "RouthLyapunov" '("equations" "poisson") "analysis/routh_lyapunov" "analysis_routh_lyapunov"
-  "state_equations" "known_integrals" "variables" *analysis-unknowns* *analysis-where* *analysis-laws*
-  (list "multipliers" *analysis-none*))
+(core-rule "RouthLyapunov" '("equations" "poisson") "analysis/routh_lyapunov"
+  "analysis_routh_lyapunov"
+  "state_equations" "known_integrals" "variables" *analysis-unknowns* *analysis-where*
+  *analysis-laws* (list "multipliers" *analysis-none*))
 
 ;;; Matrices and forms
 
 (core-public "RootCount" :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
                          :options (cons "lambda" *analysis-linear-options*) :kinds *analysis-kinds*)
-(core-rule "RootCount" :any "analysis/root_count" "analysis_root_count" "polynomial" *analysis-lambda*)
+(core-rule "RootCount" :any "analysis/root_count" "analysis_root_count" "polynomial"
+  *analysis-lambda*)
 
 (core-public "RealNegativeRoots" :forms '(("polynomial" "polynomial" "u")))
-(core-rule "RealNegativeRoots" :any "analysis/real_roots" "analysis_real_negative_roots" "polynomial" "u")
+(core-rule "RealNegativeRoots" :any "analysis/real_roots" "analysis_real_negative_roots"
+  "polynomial" "u")
 
-(loop for (name function) in '(("LeadingMinors" "analysis_leading_minors") ("Signature" "analysis_signature")
+(loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
+                               ("Signature" "analysis_signature")
                                ("Definite" "analysis_definite"))
       do (core-public name :forms '(("matrices" "A")))
          (core-rule name :any "analysis/definite" function "A"))
 
-(core-public "ForceStructure" :forms '(("pencil" "M" "S" "W"))
-                              :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
+(core-public "ForceStructure"
+  :forms '(("pencil" "M" "S" "W"))
+  :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
 (core-rule "ForceStructure" :any "analysis/forces" "analysis_force_structure" "M" "S" "W")
 
-(core-public "KelvinChetaev" :forms '(("forces" "M" "D" "G" "K" "P"))
-                             :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
+(core-public "KelvinChetaev"
+  :forms '(("forces" "M" "D" "G" "K" "P"))
+  :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
 (core-rule "KelvinChetaev" :any "analysis/forces" "analysis_kelvin_chetaev" "M" "D" "G" "K" "P")
 (loop for part in '("D" "G" "K" "P")
       do (core-rule-field part *analysis-motions* "ForceStructure" part))
