@@ -209,7 +209,8 @@
           (push (cons column row) pivots))))
     (circuits-mlist
      (list (circuits-mlist
-            (mapcar (lambda (pair) (circuits-mlist (list (car pair) (circuits-row-list (cdr pair)))))
+            (mapcar (lambda (pair)
+                      (circuits-mlist (list (car pair) (circuits-row-list (cdr pair)))))
                     (nreverse pivots)))
            (circuits-mlist
             (mapcar #'circuits-row-list

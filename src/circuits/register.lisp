@@ -6,10 +6,12 @@
 (in-package :maxima)
 
 (core-public "PotentialParts" :kinds '("circuit"))
-(core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts" "description")
+(core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts"
+  "description")
 
 (core-public "MixedPotential" :kinds '("circuit"))
-(core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential" "description")
+(core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
+  "description")
 
 (core-public "StateEquations"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
@@ -21,7 +23,8 @@
 
 (core-public "PotentialRate"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances")) :kinds '("circuit"))
-(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "description" "MixedPotential")
+(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "description"
+  "MixedPotential")
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
@@ -31,10 +34,13 @@
 ;;; Linear circuits have Lagrange's function, and with it every form of equations: in loop charges
 
 (core-public "LoopLagrangian" :kinds '("circuit"))
-(core-rule "LoopLagrangian" '("circuit") "circuits/lagrangian" "circuits_loop_lagrangian" "description")
+(core-rule "LoopLagrangian" '("circuit") "circuits/lagrangian" "circuits_loop_lagrangian"
+  "description")
 
 (core-public "NodeLagrangian" :kinds '("circuit"))
-(core-rule "NodeLagrangian" '("circuit") "circuits/lagrangian" "circuits_node_lagrangian" "description")
+(core-rule "NodeLagrangian" '("circuit") "circuits/lagrangian" "circuits_node_lagrangian"
+  "description")
 
-(loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R") ("forces" "Q"))
+(loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
+                                ("forces" "Q"))
       do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
