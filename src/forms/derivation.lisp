@@ -5,8 +5,8 @@
 ;;;     sum dk/dq_j q_j' + dk/dt,  and q_j'' for the velocity of q_j.
 ;;; Served is an L whose kernels are free of velocities and which has no coordinates below the line;
 ;;; Maxima's simplifier, quadratic in the length of sums, sees neither L nor the equations (three
-;;; bodies, six angles, full tensors: 0.6 s instead of 4 s; seconds grow with the length of the result,
-;;; which grows about eightfold with each body).
+;;; bodies, six angles, full tensors: 0.6 s instead of 4 s; seconds grow with the length of the
+;;; result, which grows about eightfold with each body).
 
 (in-package :maxima)
 
@@ -149,7 +149,8 @@ where it is too long."
 
 (defun forms-written (quotients)
   (cons '(mlist simp)
-        (mapcar (lambda (quotient) (algebra-collected-reduced (algebra-cancel quotient))) quotients)))
+        (mapcar (lambda (quotient) (algebra-collected-reduced (algebra-cancel quotient)))
+                quotients)))
 
 (defun forms-unless-too-large (value)
   (if (eq value 'too-large) nil value))

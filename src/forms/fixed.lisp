@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Numbers with 512 binary digits behind the point: whole numbers that count units of 2^-512. Sums
 ;;; are exact, products off by one unit; sine and cosine of x come from their series at x/2^20 by
-;;; twenty doublings of 1 - cos,   1 - cos 2x = 2 v (2 - v),  sin 2x = 2 sin x (1 - v),  v = 1 - cos x,
-;;; which cost some forty digits.
+;;; twenty doublings of 1 - cos,   1 - cos 2x = 2 v (2 - v),  sin 2x = 2 sin x (1 - v),  
+;;; v = 1 - cos x,  which cost some forty digits.
 
 (in-package :maxima)
 

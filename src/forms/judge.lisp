@@ -1,10 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The judge of Lagrange's equations e_i = d/dt dL/dq_i' - dL/dq_i + dR/dq_i' - Q_i. For random
-;;; numbers c_i the sum of c_i e_i is compared with quotients of differences of L along a random motion
-;;; q + v*s + a*s^2/2: with D the derivative in the direction c,
+;;; numbers c_i the sum of c_i e_i is compared with quotients of differences of L along a random
+;;; motion q + v*s + a*s^2/2: with D the derivative in the direction c,
 ;;;     sum c_i e_i = d/ds D_v L - D_q L + D_v R - c.Q,
-;;; six values of L whatever the number of equations, and no symbolic derivative. With steps of 2^-100
-;;; the error is about 2^-200. See forms-judged-sum first.
+;;; six values of L whatever the number of equations, and no symbolic derivative. With steps of
+;;; 2^-100 the error is about 2^-200. See forms-judged-sum first.
 
 (in-package :maxima)
 
@@ -133,5 +133,6 @@
   (let ((point (forms-given-point point))
         (trial (make-forms-trial :weights (list (ash 1 forms-digits)))))
     (let ((slope (catch 'forms-no-value
-                   (forms-slope trial (lambda (point) (forms-fixed-value e point)) point (list x)))))
+                   (forms-slope trial (lambda (point) (forms-fixed-value e point)) point
+                                (list x)))))
       (and slope (div slope (ash 1 forms-digits))))))

@@ -136,8 +136,8 @@
                                  #'sum))))))
 
 ;;; Elimination: b.A^-1.b is the sum of b_k^2/a_kk, where after each k what is left of A and b
-;;; becomes a_ij - a_ik a_kj/a_kk, b_i - a_ik b_k/a_kk. Short entries first: what comes late is written
-;;; least.
+;;; becomes a_ij - a_ik a_kj/a_kk, b_i - a_ik b_k/a_kk. Short entries first: what comes late is
+;;; written least.
 
 (defun forms-by-elimination (rows b)
   (destructuring-bind (rows b)

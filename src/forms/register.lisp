@@ -23,27 +23,30 @@
   :options '("rayleigh" "forces" "constraints" "nonholonomic" "simplify" "expanded" "eliminate")
   :kinds *forms-kinds*)
 (core-rule "LagrangeEquations" :any "forms/lagrange" "forms_lagrange_equations"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
-  '("nonholonomic" ((mlist simp))) '("simplify" nil) '("expanded" nil) '("eliminate" nil) '("form" $auto))
+  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp)))
+  '("constraints" ((mlist simp)))
+  '("nonholonomic" ((mlist simp))) '("simplify" nil) '("expanded" nil) '("eliminate" nil)
+  '("form" $auto))
 
 (core-public "MassForm"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("rayleigh" "forces")
   :kinds *forms-kinds*)
 (core-rule "MassForm" :any "forms/mass" "forms_free_mass_form"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
-  '("nonholonomic" ((mlist simp))) '("form" $auto))
+  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp)))
+  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("form" $auto))
 
 (core-public "Quadratics"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :kinds *forms-kinds*)
-(core-rule "Quadratics" :any "forms/quadratics" "forms_quadratics" "Lagrangian" "coordinates" '("ForceFunction" nil) '("form" $auto))
+(core-rule "Quadratics" :any "forms/quadratics" "forms_quadratics" "Lagrangian" "coordinates"
+  '("ForceFunction" nil) '("form" $auto))
 
 ;;; Routh
 
 (defparameter *forms-routh-inputs*
-  '("Lagrangian" "coordinates" ("cyclic" $auto) ("momenta" ((mlist simp))) ("rayleigh" 0) ("forces" ((mlist simp)))
-    ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))))
+  '("Lagrangian" "coordinates" ("cyclic" $auto) ("momenta" ((mlist simp))) ("rayleigh" 0)
+    ("forces" ((mlist simp))) ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))))
 
 (core-public "RouthFunction"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
@@ -59,8 +62,10 @@
 (apply #'core-rule "RouthEquations" :any "forms/routh" "forms_routh_equations"
        (append *forms-routh-inputs* '(("simplify" nil) ("form" $auto))))
 
-(apply #'core-rule "remaining_coordinates" :any "forms/routh" "forms_remaining_coordinates" *forms-routh-inputs*)
-(apply #'core-rule "cyclic_integrals" :any "forms/routh" "forms_cyclic_integrals" *forms-routh-inputs*)
+(apply #'core-rule "remaining_coordinates" :any "forms/routh" "forms_remaining_coordinates"
+  *forms-routh-inputs*)
+(apply #'core-rule "cyclic_integrals" :any "forms/routh" "forms_cyclic_integrals"
+  *forms-routh-inputs*)
 
 ;;; Hamilton
 
@@ -79,28 +84,31 @@
 (core-rule "HamiltonEquations" :any "forms/hamilton" "forms_hamilton_equations"
   "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp)))
   '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("form" $auto))
-(core-rule-given "hamiltonian" "HamiltonEquations" '("lagrangian") "forms/hamilton" "forms_hamilton_equations_of"
+(core-rule-given "hamiltonian" "HamiltonEquations" '("lagrangian") "forms/hamilton"
+  "forms_hamilton_equations_of"
   "hamiltonian" "coordinates" '("momenta" ((mlist simp))) '("forces" ((mlist simp)))
   '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("form" $auto))
 
 ;;; Dirac
 
 (defparameter *forms-dirac-inputs*
-  '(("momenta" ((mlist simp))) ("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
-    ("nonholonomic" ((mlist simp)))))
+  '(("momenta" ((mlist simp))) ("rayleigh" 0) ("forces" ((mlist simp)))
+    ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))))
 
 (core-public "DiracScheme"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("momenta" "constraints")
   :kinds *forms-kinds*)
-(apply #'core-rule "DiracScheme" :any "forms/dirac" "forms_dirac_scheme" "Lagrangian" "coordinates" *forms-dirac-inputs*)
+(apply #'core-rule "DiracScheme" :any "forms/dirac" "forms_dirac_scheme" "Lagrangian" "coordinates"
+  *forms-dirac-inputs*)
 
 (core-public "DiracBracket"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "f" "g"))
   :trailing '("f" "g")
   :options '("momenta" "constraints")
   :kinds *forms-kinds*)
-(apply #'core-rule "DiracBracket" :any "forms/dirac" "forms_dirac_bracket" "Lagrangian" "coordinates" "f" "g" *forms-dirac-inputs*)
+(apply #'core-rule "DiracBracket" :any "forms/dirac" "forms_dirac_bracket" "Lagrangian"
+  "coordinates" "f" "g" *forms-dirac-inputs*)
 
 ;;; First integrals
 
@@ -109,7 +117,8 @@
   :options '("rayleigh" "forces" "constraints" "nonholonomic")
   :kinds *forms-kinds*)
 (core-rule "FirstIntegrals" :any "forms/integrals" "forms_first_integrals"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp))) '("constraints" ((mlist simp)))
+  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp)))
+  '("constraints" ((mlist simp)))
   '("nonholonomic" ((mlist simp))) '("axis_momenta" ((mlist simp))) '("form" $auto))
 
 ;;; Programs
@@ -119,22 +128,26 @@
   :options '("rayleigh" "forces" "solved" "inverse")
   :kinds *forms-kinds*)
 (defparameter *forms-program-inputs*
-  '(("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))
-    ("laws" ((mlist simp)))))
+  '(("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
+    ("nonholonomic" ((mlist simp))) ("laws" ((mlist simp)))))
 
 (dolist (option '(nil ("form" $program)))
-  (apply #'core-rule-given option "EquationProgram" :any "forms/equation_program" "forms_equation_program"
-         "Lagrangian" "coordinates" (append *forms-program-inputs* '(("solved" nil) ("inverse" nil)))))
-(apply #'core-rule-given '("form" $program) "MassForm" :any "forms/equation_program" "forms_mass_program"
+  (apply #'core-rule-given option "EquationProgram" :any "forms/equation_program"
+         "forms_equation_program" "Lagrangian" "coordinates"
+         (append *forms-program-inputs* '(("solved" nil) ("inverse" nil)))))
+(apply #'core-rule-given '("form" $program) "MassForm" :any "forms/equation_program"
+  "forms_mass_program"
        "Lagrangian" "coordinates" *forms-program-inputs*)
-(apply #'core-rule-given '("form" $program) "LagrangeEquations" :any "forms/equation_program" "forms_lagrange_program"
+(apply #'core-rule-given '("form" $program) "LagrangeEquations" :any "forms/equation_program"
+  "forms_lagrange_program"
        "Lagrangian" "coordinates"
        (append *forms-program-inputs* '(("simplify" nil) ("expanded" nil) ("eliminate" nil))))
 
 (core-public "ExportProgram"
   :forms '(("expressions" "program" "file"))
   :options '("language" "replace"))
-(core-rule "ExportProgram" :any "forms/export_program" "forms_export_program" "program" "file" '("language" $c) '("replace" nil))
+(core-rule "ExportProgram" :any "forms/export_program" "forms_export_program" "program" "file"
+  '("language" $c) '("replace" nil))
 
 ;;; Poisson
 

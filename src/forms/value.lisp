@@ -2,8 +2,8 @@
 ;;; Values of expressions at a rational point, to 512 binary digits: whole numbers that count units
 ;;; of 2^-512. Sums that occur in several places are evaluated once. A name without a value gets a
 ;;; rational one that its spelling decides, where the point is a random one; a function left open is
-;;; the polynomial of sample.lisp. Functions other than sine and cosine are left to Maxima's long floats,
-;;; once for each value. See forms-fixed-value first.
+;;; the polynomial of sample.lisp. Functions other than sine and cosine are left to Maxima's long
+;;; floats, once for each value. See forms-fixed-value first.
 
 (in-package :maxima)
 
