@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; T and U in numbers, from the frames in fixed axes:
-;;;     T_k = m r_C'.r_C'/2 + trace(A' J A'^T)/2 + h.w,   J = trace(Theta_C)/2 - Theta_C,   U_k = m
-;;; g.r_C, h the momentum of rotors inside, w the angular velocity, A^T A' its skew matrix.
+;;;     T_k = m r_C'.r_C'/2 + trace(A' J A'^T)/2 + h.w,   J = trace(Theta_C)/2 - Theta_C,
+;;;     U_k = m g.r_C,
+;;; h the momentum of rotors inside, w the angular velocity, A^T A' its skew matrix.
 ;;; They judge the expressions for T and U, and as functions of a point the mass form.
 
 (in-package :maxima)
@@ -19,10 +20,10 @@
             (centre (linmodel-fixed-vector centre point)))
         (make-linmodel-solid
          :link link :mass mass :centre centre
-         :moments (linmodel-moments (if joint-inertia
-                                        (linmodel-fixed-about-centre (rows joint-inertia) mass
-                                                                     centre)
-                                        (rows centre-inertia)))
+         :moments (linmodel-moments
+                   (if joint-inertia
+                       (linmodel-fixed-about-centre (rows joint-inertia) mass centre)
+                       (rows centre-inertia)))
          :momentum (and momentum (linmodel-fixed-vector momentum point)))))))
 
 (defun linmodel-diagonal-minus (x rows)

@@ -2,7 +2,7 @@
 ;;; Positions and velocities in fixed axes, in numbers, with nothing of the recursion in body axes:
 ;;; what T, U, the forces and the equations are judged by. A frame has the direction cosines A of
 ;;; its axes (three columns), their rates A', the radius vector r of its origin and r'. From the
-;;; parent j to k,
+;;; parent j to k
 ;;;     r_k = r_j + A_j joint,   A_k = A_j times the simple rotations,
 ;;; differentiated by the rule of products. See linmodel-frames-at first.
 
@@ -109,8 +109,9 @@ column j and the new column i with the other sign."
          (rates (linmodel-fixed-vector rates point)))
     (cons '(mlist simp)
           (loop for frame across (subseq (linmodel-frames-at (cdr links) rates point) 1)
-                collect (list '(mlist simp)
-                              (linmodel-matrix-of-columns (linmodel-frame-cosines frame))
-                              (linmodel-matrix-of-columns (linmodel-frame-cosine-rates frame))
-                              (linmodel-matrix-of-columns (list (linmodel-frame-place frame)))
-                              (linmodel-matrix-of-columns (list (linmodel-frame-velocity frame))))))))
+                collect (cons '(mlist simp)
+                              (mapcar #'linmodel-matrix-of-columns
+                                      (list (linmodel-frame-cosines frame)
+                                            (linmodel-frame-cosine-rates frame)
+                                            (list (linmodel-frame-place frame))
+                                            (list (linmodel-frame-velocity frame)))))))))

@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Coordinates that move the bodies in one and the same way, such as q1 and q2 in angles = [q1 +
-;;; q2]. The rates of all turns and joints are rows linear in q'; turns of one body that follow each
-;;; other about one axis count as one. The coordinates are independent where the rows have full
-;;; rank: a coordinate alone in its row is set aside with its column, again and again, which in
-;;; ordinary systems leaves nothing; of what is left the rank is found.
+;;; Coordinates that move the bodies in one and the same way, such as q1 and q2 where angles is
+;;; [q1 + q2]. The rates of all turns and joints are rows linear in q'; turns of one body that
+;;; follow each other about one axis count as one. The coordinates are independent where the rows
+;;; have full rank: a coordinate alone in its row is set aside with its column, again and again,
+;;; which in ordinary systems leaves nothing; of what is left the rank is found.
 
 (in-package :maxima)
 

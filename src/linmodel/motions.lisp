@@ -62,8 +62,8 @@
   "The list of (i w . v), i from 1 to N, of LINK on a parent at rest."
   (let ((place (linmodel-link-joint a link)) (rows (linmodel-link-rows a link)))
     (loop for i in (linmodel-moving-indices (append rows (mapcar #'linmodel-turn-row turns)) n)
-          collect (cons i (linmodel-carried-twist a i (linmodel-twist-of i '()) turns place
-                                                  rows)))))
+          collect (cons i (linmodel-carried-twist a i (linmodel-twist-of i '())
+                                                  turns place rows)))))
 
 (defun linmodel-moving-indices (rows n)
   "The indices, from 1 to N, at which one of ROWS is not 0."

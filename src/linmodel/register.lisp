@@ -32,7 +32,7 @@
 
 (dolist (option '(nil ("form" $program)))
   (apply #'core-rule-given option "EquationProgram" '("mechanical") "linmodel/equation_program"
-    "linmodel_equation_program"
+         "linmodel_equation_program"
          (append *linmodel-program-inputs* '(("solved" nil) ("inverse" nil)))))
 (apply #'core-rule-given '(:edited "Lagrangian") "EquationProgram" '("mechanical")
        "forms/equation_program" "forms_equation_program" "Lagrangian" "coordinates"
