@@ -254,8 +254,3 @@ the next one begins."
          (and (> (length text) 7) (string= "sha256:" text :end2 7)
               (every #'archive-word-p (subseq text 7))
               text))))
-
-(defun archive-sheet-calls (sheet)
-  "The open functions called in the description of SHEET: list of (name line column)."
-  (loop for section in (sheet-sections sheet)
-        append (loop for entry in (section-entries section) append (entry-calls entry))))

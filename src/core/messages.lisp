@@ -73,8 +73,6 @@
 
 (defun $core_warn (&rest items) (core-warn "~a" (core-words items)) '$done)
 
-(defun $core_progress (&rest items) (core-progress "~a" (core-words items)) '$done)
-
 (defun $core_checked (&rest items)
   (pushnew (core-words items) *core-checks* :test #'string=)
   '$done)

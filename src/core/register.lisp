@@ -70,8 +70,8 @@ without $ inside."
     (if (and (plusp (length name)) (char= (char name 0) #\$)) (subseq name 1) name)))
 
 (defun core-rule-fits (rule kind given)
-  "Whether RULE serves an archive of KIND; GIVEN tells whether the call has an option, or (option
-value); or :file."
+  "Whether RULE serves an archive of KIND; GIVEN tells whether the rule's condition holds, one of
+those of core-rule-given."
   (and (or (eq (rule-kinds rule) :any) (member kind (rule-kinds rule) :test #'equal))
        (or (null (rule-given rule)) (funcall given (rule-given rule)))))
 
