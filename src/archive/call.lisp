@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; A call taken apart: what is the system, what are the arguments and options, which of the forms
-;;; of API it is. Everything given becomes a named quantity in the table `given', on a level with
+;;; of the function it is. Everything given becomes a named quantity in the table `given', on a level with
 ;;; the keys of the archive, which it overrules.
 
 (in-package :maxima)
@@ -138,6 +138,18 @@ at where they are used.")
     (unless (and rule (equal (rule-given rule) *archive-program-form*))
       (core-error "form = program is for ~{~a~^, ~}; this function has none"
                   (archive-program-names)))))
+
+(defun archive-option-of (condition)
+  "The option that CONDITION, (name value), asks for, as an equation."
+  (list '(mequal) (core-symbol (first condition)) (second condition)))
+
+(defun archive-program-serves-p (name arguments)
+  "Whether NAME has a program too, and the form is left to us."
+  (and arguments
+       (member name (archive-program-names) :test #'string=)
+       (loop for equation in (nth-value 1 (archive-split-arguments arguments))
+             never (and (eq (cadr equation) (core-symbol "form"))
+                        (not (eq (caddr equation) '$auto))))))
 
 (defun archive-program-names ()
   (sort (loop for name being the hash-keys of *core-rules* using (hash-value rules)

@@ -15,6 +15,11 @@
 (defun forms-fixed-times (x y)
   (ash (* x y) (- forms-digits)))
 
+(defun forms-fixed-dot (u v)
+  (let ((sum 0))
+    (mapc (lambda (x y) (incf sum (* x y))) u v)
+    (ash sum (- forms-digits))))
+
 (defun forms-fixed-power (base n)
   (let ((power (ash 1 forms-digits)))
     (loop repeat n do (setq power (forms-fixed-times power base)))

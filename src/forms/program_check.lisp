@@ -66,8 +66,6 @@
 
 (defun forms-output (name values) (cdr (assoc name values)))
 
-(defun forms-fixed-product (u v) (reduce #'+ (mapcar #'forms-fixed-times u v)))
-
 ;;; What must agree: pairs of numbers.
 
 (defun forms-program-pairs (task trial point values judge)
@@ -79,8 +77,7 @@
                                      (forms-program-judge-forces judge) point)))
          (ecase (forms-task-result task)
            ($mass (forms-mass-pairs task trial point values work changes second))
-           ($solved (cons (cons work (forms-fixed-product (forms-output '$multipliers values)
-                                                          changes))
+           ($solved (cons (cons work (forms-fixed-dot (forms-output '$multipliers values) changes))
                           (mapcar (lambda (x) (cons x 0)) second)))
            ($inverse (forms-inverse-pairs task trial point values work changes))))))
 
@@ -90,24 +87,23 @@
 (defun forms-mass-pairs (task trial point values work changes second)
   (let ((a (forms-places-of (forms-task-a task) point)) (c (forms-trial-weights trial)))
     (flet ((rows (name) (forms-rows-of (forms-output name values) (length a))))
-      (cons (cons (forms-fixed-product c (mapcar (lambda (row right)
-                                                   (- (forms-fixed-product row a) right))
-                                                 (rows '|$m|) (forms-output '$f values)))
+      (cons (cons (forms-fixed-dot c (mapcar (lambda (row right) (- (forms-fixed-dot row a) right))
+                                             (rows '|$m|) (forms-output '$f values)))
                   work)
             (loop for row in (rows '|$a|)
                   for right in (forms-output '$b values)
                   for change in changes
                   for acceleration in second
-                  collect (cons (forms-fixed-product row c) change)
-                  collect (cons (- (forms-fixed-product row a) right) acceleration))))))
+                  collect (cons (forms-fixed-dot row c) change)
+                  collect (cons (- (forms-fixed-dot row a) right) acceleration))))))
 
 (defun forms-rows-of (numbers n)
   (loop while numbers collect (loop repeat n collect (pop numbers))))
 
 (defun forms-inverse-pairs (task trial point values work changes)
   (let ((multipliers (forms-places-of (forms-task-multipliers task) point)))
-    (cons (cons (forms-fixed-product (forms-trial-weights trial) (forms-output '$forces values))
-                (- work (forms-fixed-product multipliers changes)))
+    (cons (cons (forms-fixed-dot (forms-trial-weights trial) (forms-output '$forces values))
+                (- work (forms-fixed-dot multipliers changes)))
           (loop for value in (forms-output '$constraints values)
                 for e in (append (forms-task-holonomic task) (forms-task-nonholonomic task))
                 collect (cons value (forms-fixed-value e point))))))

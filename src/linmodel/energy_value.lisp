@@ -37,7 +37,7 @@
 (defun linmodel-fixed-about-centre (tensor mass centre)
   "Theta_O - m (c.c E - c c^T)"
   (let ((shift (linmodel-diagonal-minus
-                (linmodel-fixed-dot centre centre)
+                (forms-fixed-dot centre centre)
                 (mapcar (lambda (x) (linmodel-fixed-scaled x centre)) centre))))
     (mapcar (lambda (row moved) (mapcar #'- row (linmodel-fixed-scaled mass moved))) tensor shift)))
 
@@ -51,7 +51,7 @@
          (velocity (linmodel-fixed-plus
                     (linmodel-frame-velocity frame)
                     (linmodel-fixed-combination da (linmodel-solid-centre solid)))))
-    (+ (ash (forms-fixed-times (linmodel-solid-mass solid) (linmodel-fixed-dot velocity velocity))
+    (+ (ash (forms-fixed-times (linmodel-solid-mass solid) (forms-fixed-dot velocity velocity))
             -1)
        (ash (linmodel-trace-value (linmodel-solid-moments solid) da) -1)
        (linmodel-gyrostat-value (linmodel-solid-momentum solid) frame))))
@@ -60,23 +60,23 @@
   "trace(A' J A'^T), A' of the COLUMNS."
   (loop for row in moments
         for u in columns
-        sum (linmodel-fixed-dot u (linmodel-fixed-combination columns row))))
+        sum (forms-fixed-dot u (linmodel-fixed-combination columns row))))
 
 (defun linmodel-gyrostat-value (momentum frame)
   (if (null momentum)
       0
       (let ((a (linmodel-frame-cosines frame)) (da (linmodel-frame-cosine-rates frame)))
-        (flet ((skew (i j) (linmodel-fixed-dot (nth i a) (nth j da))))
-          (linmodel-fixed-dot momentum (list (skew 2 1) (skew 0 2) (skew 1 0)))))))
+        (flet ((skew (i j) (forms-fixed-dot (nth i a) (nth j da))))
+          (forms-fixed-dot momentum (list (skew 2 1) (skew 0 2) (skew 1 0)))))))
 
 (defun linmodel-weight-value (solid frame gravity)
   (forms-fixed-times
    (linmodel-solid-mass solid)
-   (linmodel-fixed-dot gravity
-                       (linmodel-fixed-plus
-                        (linmodel-frame-place frame)
-                        (linmodel-fixed-combination (linmodel-frame-cosines frame)
-                                                    (linmodel-solid-centre solid))))))
+   (forms-fixed-dot gravity
+                    (linmodel-fixed-plus
+                     (linmodel-frame-place frame)
+                     (linmodel-fixed-combination (linmodel-frame-cosines frame)
+                                                 (linmodel-solid-centre solid))))))
 
 (defun linmodel-value-of (scene v gravity base kinetic)
   "The function of points whose value is T (where KINETIC is not nil) plus the weight's U; masses

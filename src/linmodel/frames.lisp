@@ -16,11 +16,6 @@
 (defun linmodel-fixed-plus (u v) (mapcar #'+ u v))
 (defun linmodel-fixed-scaled (x v) (mapcar (lambda (y) (forms-fixed-times x y)) v))
 
-(defun linmodel-fixed-dot (u v)
-  (let ((sum 0))
-    (mapc (lambda (x y) (incf sum (* x y))) u v)
-    (ash sum (- forms-digits))))
-
 (defun linmodel-fixed-combination (columns coefficients)
   "The vector sum of the COLUMNS times the COEFFICIENTS."
   (let ((sum (list 0 0 0)))
