@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; A call taken apart: what is the system, what are the arguments and options, which of the forms
-;;; of the function it is. Everything given becomes a named quantity in the table `given', on a level with
-;;; the keys of the archive, which it overrules.
+;;; of the function it is. Everything given becomes a named quantity in the table `given', on a
+;;; level with the keys of the archive, which it overrules.
 
 (in-package :maxima)
 
