@@ -38,6 +38,8 @@ chain: append(['kind = 'mechanical, 'bodies = 4, 'coordinates = makelist(concat(
 place: append([g = 981/100, k = 7/2, h = 3/4, 'diff(chi, t) = 11/4, chi = 5/8],
   makelist('diff(concat(q, i), t) = (mod(5*i, 9) - 4)/10, i, 6), makelist(concat(q, i) = (mod(3*i, 7) + 1)/10, i, 6))$
 equations: MassForm(chain, form = factored, save = false)$
+for pair in ["int.c" = c, "sin.c" = c, "end.f90" = fortran, "sin.f90" = fortran, "lambda.py" = python, "sin.py" = python, "list.lisp" = lisp] do
+  ExportProgram(algebra_program([x, y], ['f = [sin(x)*y]]), lhs(pair), language = rhs(pair))$
 test("chain", EquationProgram(chain, save = false), flatten([args(first(equations)), second(equations)]), place)$
 END
 timeout -k 5 300 "$here/../tools/maxima" --very-quiet -b make.mac >log 2>&1 </dev/null; [ -s chain.y ] || cat log
@@ -113,6 +115,22 @@ run_lisp() {
 END
   sbcl --noinform --non-interactive --no-userinit --load "$1.main.lisp"
 }
+
+# reserved NAME COMMAND..: a file named after a reserved word, compiled by COMMAND, where it is
+reserved() {
+  name=$1
+  shift
+  command -v "$1" >/dev/null 2>&1 || { echo "not run: $name, there is no $1 here"; return; }
+  check "named after a reserved word: $name" "$("$@" 2>&1 && echo compiled)" "compiled"
+}
+reserved int.c cc -Wall -Werror -c int.c
+reserved sin.c cc -Wall -Werror -c sin.c
+reserved end.f90 gfortran -c end.f90
+reserved sin.f90 gfortran -Wall -Werror -c sin.f90
+reserved lambda.py python3 -B -c "compile(open('lambda.py').read(), 'lambda.py', 'exec')"
+reserved sin.py python3 -B -c "from sin import program_sin
+assert program_sin([0.5, 2.0])[0] > 0.9"
+reserved list.lisp sbcl --noinform --non-interactive --no-userinit --eval '(let ((*standard-output* (make-broadcast-stream))) (load "list.lisp"))'
 
 language c cc
 language fortran gfortran

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record"))
+  (core-require "algebra/program_record" "algebra/reserved"))
 
 (defvar *algebra-part-length* 300 "Assignments in one function.")
 
@@ -261,12 +261,17 @@
 (defun algebra-routine-character (c)
   (if (or (char<= #\a c #\z) (char<= #\A c #\Z) (digit-char-p c)) (char-downcase c) #\_))
 
-(defun algebra-routine-name (file)
-  "The name of FILE without folder and type, as a routine may be called."
-  (let* ((start (1+ (or (position #\/ file :from-end t) -1)))
+(defun algebra-folder-length (file)
+  "How many letters of FILE name its folder, the last slash included."
+  (1+ (or (position #\/ file :from-end t) -1)))
+
+(defun algebra-routine-name (file language)
+  "The name of FILE without folder and type, as a routine may be called in LANGUAGE."
+  (let* ((start (algebra-folder-length file))
          (end (position #\. file :start start))
          (name (map 'string #'algebra-routine-character (subseq file start end))))
-    (if (and (plusp (length name)) (alpha-char-p (char name 0)))
+    (if (and (plusp (length name)) (alpha-char-p (char name 0))
+             (not (algebra-reserved-name-p name (algebra-language-name language))))
         (subseq name 0 (min 50 (length name)))
         (concatenate 'string "program_" (subseq name 0 (min 40 (length name)))))))
 
@@ -274,14 +279,27 @@
   (when (and (core-existing-file file) (not replace))
     (core-error "~a exists already; give replace = true to write over it" file)))
 
+(defun algebra-or-unwritable (file function)
+  "The value of FUNCTION, or an error that says what hinders."
+  (handler-case (funcall function)
+    (error ()
+      (let ((folder (subseq file 0 (algebra-folder-length file))))
+        (core-error "~a cannot be written: ~:[the folder ~a~;the working folder~*~] does not exist ~
+                     or cannot be written in, or a folder has this name"
+                    file (string= folder "") folder)))))
+
+(defun algebra-open-draft (draft file)
+  (algebra-or-unwritable
+   file
+   (lambda () (open (core-pathname draft) :direction :output :if-exists :supersede))))
+
 (defun algebra-write-file (file function)
   "FUNCTION writes to a draft, which then takes the place of FILE."
   (let ((draft (format nil "~a.~a.draft" file (core-process-id))))
     (unwind-protect
          (progn
-           (with-open-file (stream (core-pathname draft) :direction :output :if-exists :supersede)
-             (funcall function stream))
-           (algebra-rename-file draft file))
+           (with-open-stream (stream (algebra-open-draft draft file)) (funcall function stream))
+           (algebra-or-unwritable file (lambda () (algebra-rename-file draft file))))
       (when (core-existing-file draft) (delete-file (core-pathname draft))))))
 
 (defun algebra-rename-file (draft file)
@@ -300,5 +318,6 @@
         (algebra-write-file
          file
          (lambda (stream)
-           (algebra-write-program stream language (algebra-routine-name file) inputs outputs))))))
+           (algebra-write-program stream language (algebra-routine-name file language) inputs
+                                  outputs))))))
   file)

@@ -156,7 +156,12 @@
   (if (or (integerp value) (archive-symbol-p value)) value (archive-unfit)))
 
 (defun archive-as-parent (value)
-  (if (or (and (integerp value) (>= value 0)) (archive-symbol-p value)) value (archive-unfit)))
+  "A name in quotes, or a whole head of a section, is refused with what to write."
+  (cond ((or (and (integerp value) (>= value 0)) (archive-symbol-p value)) value)
+        ((stringp value)
+         (archive-unfit "write it without quotes: parent = ~a"
+                        (subseq value (1+ (or (position #\Space value :from-end t) -1)))))
+        (t (archive-unfit))))
 
 (defun archive-one-of (value words)
   "VALUE, a symbol spelled as one of WORDS; the nearest word is named otherwise."
