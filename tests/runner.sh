@@ -4,7 +4,7 @@
 
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
 . "$here/check"
-DYNARCH_TEST_LIMIT=10
+DYNARCH_TEST_LIMIT=20
 DYNARCH_TEST_HEAP=512
 export DYNARCH_TEST_LIMIT DYNARCH_TEST_HEAP
 
@@ -39,7 +39,7 @@ ends_badly() { # SUITE MODE PASSED [REASON]: it counts as one failure more than 
 
 ends_badly rtest_crashes.mac sbcl 1 "it ended with exit status 1"
 ends_badly rtest_quits.mac sbcl 1 "there is no summary at its end: it stopped before"
-ends_badly rtest_hangs.mac sbcl 1 "it did not end within 10 s"
+ends_badly rtest_hangs.mac sbcl 1 "it did not end within 20 s"
 ends_badly rtest_asks.mac sbcl 1
 ends_badly rtest_heap.mac sbcl 1
 ends_badly rtest_endless.mac sbcl 1 "it writes without end (more than 4000000 bytes)"
@@ -52,8 +52,8 @@ ends_badly rtest_empty.mac sbcl 0 "it holds no test"
 ends_badly rtest_nothing.mac sbcl 0 "it holds no test"
 ends_badly sh_crashes.sh sh 0 "it ended with exit status 139"
 ends_badly sh_silent.sh sh 0 "there is no summary at its end: it stopped before"
-ends_badly sh_hangs.sh sh 1 "it did not end within 10 s"
-ends_badly sh_ignores.sh sh 1 "it did not end within 10 s"
+ends_badly sh_hangs.sh sh 1 "it did not end within 20 s"
+ends_badly sh_ignores.sh sh 1 "it did not end within 20 s"
 
 run_tests "$here/runner" no_such_suite
 check "a missing file fails" "$status $(printf '%s\n' "$log" | tail -n 1)" "1 0 passed, 1 failed"

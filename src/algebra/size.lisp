@@ -45,6 +45,7 @@
 (defun algebra-guard (predicted what &optional (advice *algebra-advice*))
   (when (> predicted *algebra-limit*)
     (when *algebra-may-give-up* (throw 'algebra-too-large 'too-large))
+    (setq *core-too-large* t)
     (core-error "~A would have about ~A terms, more than the ~A that are safe; ~
                  give numbers to some parameters~@[ or ~A~]"
                 what (algebra-about predicted) *algebra-limit* advice)))

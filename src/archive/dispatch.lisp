@@ -11,11 +11,24 @@
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
-  (multiple-value-bind (value text)
-      (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
-            (*core-started* nil) (*core-progress* t))
-        (core-caught (lambda () (archive-called name arguments))))
-    (if text (merror "~A" text) value)))
+  (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
+        (*core-started* nil) (*core-progress* t) (*core-too-large* nil))
+    (multiple-value-bind (value text) (archive-tried name arguments)
+      (when (and text *core-too-large* (archive-program-serves-p name arguments))
+        (multiple-value-setq (value text) (archive-program-instead name arguments text)))
+      (if text (merror "~A" text) value))))
+
+(defun archive-program-instead (name arguments text)
+  "As core-caught: the program of what would be too long; TEXT, the first error, where there is none."
+  (multiple-value-bind (program refusal)
+      (archive-tried name (append arguments (list (archive-option-of *archive-program-form*))))
+    (cond (refusal (values nil text))
+          (t (core-note "as an expression it would be too long: the result is a program, ~
+                         as with form = program")
+             (values program nil)))))
+
+(defun archive-tried (name arguments)
+  (core-caught (lambda () (archive-called name arguments))))
 
 (defun archive-called (name arguments)
   (multiple-value-bind (positional options) (archive-split-arguments arguments)

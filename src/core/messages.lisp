@@ -46,6 +46,8 @@
   (terpri)
   (finish-output))
 
+(defvar *core-too-large* nil "Whether the call ended because its result would be too long.")
+
 (defun core-note (control &rest arguments)
   (core-say (format nil "~@[~a: ~]~?" *core-function* control arguments)))
 
@@ -104,7 +106,7 @@
 (defun core-attempt (function)
   "A list of the value of FUNCTION, or nil when it ends in an error; nothing is printed and `error'
 keeps its value."
-  (let (($errormsg nil) ($error $error)) (errcatch (funcall function))))
+  (let (($errormsg nil) ($error $error) (*core-too-large* nil)) (errcatch (funcall function))))
 
 (defmspec $core_attempt (form)
   ;; core_attempt(e): [value of e], or [] when it ends in an error or would ask a question.

@@ -21,21 +21,49 @@
 (defparameter *linmodel-moderate* 20000
   "Where more terms than this are foretold, the canonical form is taken only if it is asked for.")
 
-(defun linmodel-compute (form function)
-  "FUNCTION of the arithmetic for FORM; auto is canonical where that is short."
+(defun linmodel-compute (form function &optional plane)
+  "FUNCTION of the arithmetic for FORM; auto is canonical where that is short. PLANE: all turns are
+about one axis, so that general expressions stay short."
   (ecase form
-    ($factored (linmodel-compute-factored function))
+    ($factored (linmodel-compute-factored function plane))
     ($canonical (let ((*algebra-advice* "take form = factored"))
                   (linmodel-compute-canonical function)))
     ($auto (let ((found (core-attempt (lambda ()
                                         (let ((*algebra-limit* *linmodel-moderate*))
                                           (linmodel-compute-canonical function))))))
              (cond (found (car found))
-                   (t (core-factored) (linmodel-compute-factored function)))))))
+                   (t (core-factored) (linmodel-compute-factored function plane)))))))
 
-(defun linmodel-compute-factored (function)
+(defparameter *linmodel-advice* "take form = program"
+  "What helps against too long a factored form.")
+
+(defun linmodel-compute-factored (function plane)
+  "The length is foretold, where turns about one axis do not become one, then measured."
+  (unless plane
+    (linmodel-guard-foretold (funcall function (linmodel-measuring-arithmetic))))
   (algebra-guard-written (funcall function (linmodel-general-arithmetic))
-                         "the factored form" "take EquationProgram, which is a program"))
+                         "the factored form" *linmodel-advice*))
+
+(defun linmodel-guard-foretold (sizes)
+  (let ((foretold (linmodel-foretold sizes)))
+    (when (> foretold (* 500 *algebra-limit*))
+      (algebra-guard (floor foretold 5) "the factored form" *linmodel-advice*))))
+
+(defun linmodel-foretold (sizes)
+  (cond ((integerp sizes) (abs sizes))
+        ((consp sizes) (loop for part in (cdr sizes) sum (linmodel-foretold part)))
+        (t 0)))
+
+(defun linmodel-measuring-arithmetic ()
+  "Elements are the numbers of nodes of general expressions; computes nothing else."
+  (flet ((size (e) (if (eql e 0) 0 (algebra-size e))))
+    (make-linmodel-arithmetic
+     :lift #'size
+     :lower #'identity
+     :add #'+
+     :multiply (lambda (x y) (+ x y 1))
+     :sine (lambda (angle) (size (linmodel-sine angle)))
+     :cosine (lambda (angle) (size (linmodel-cosine angle))))))
 
 (defun linmodel-compute-canonical (function)
   (with-algebra-ring

@@ -71,12 +71,6 @@
             thereis (notevery (lambda (row) (eql 0 (second row)))
                               (append (mapcar #'fourth (cdr (fourth link))) (cdr (sixth link)))))))
 
-(defun linmodel-by-pairs-p (a links)
-  "Whether T is written by pairs: canonical, or all LINKS turn about one axis."
-  (or (linmodel-arithmetic-multiplies-out a)
-      (let ((axes (loop for link in (cdr links) append (mapcar #'second (cdr (fourth link))))))
-        (every (lambda (axis) (eql axis (first axes))) axes))))
-
 ;;; For Maxima.
 
 (defun $linmodel_energy (scene velocities form)
@@ -88,7 +82,8 @@
            (lambda (a)
              (let ((velocities (linmodel-lift-vector a (cons '(mlist) (cons 1 (cdr velocities))))))
                (funcall (linmodel-arithmetic-lower a)
-                        (if (linmodel-by-pairs-p a links)
+                        (if (or (linmodel-arithmetic-multiplies-out a) (linmodel-plane-p links))
                             (linmodel-energy-of-pairs a links bodies velocities)
-                            (linmodel-energy-of-bodies a links bodies (cdr q) velocities))))))
+                            (linmodel-energy-of-bodies a links bodies (cdr q) velocities)))))
+           (linmodel-plane-p links))
           (linmodel-moves-by-itself-p links bodies))))

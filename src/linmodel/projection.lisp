@@ -69,7 +69,8 @@
      (multiple-value-bind (rows right) (linmodel-projection a scene gravity given velocities)
        (list '(mlist simp)
              (cons '($matrix simp) (mapcar (lambda (row) (linmodel-lower-vector a row)) rows))
-             (linmodel-lower-vector a right))))))
+             (linmodel-lower-vector a right))))
+   (linmodel-plane-p (third scene))))
 
 (defun $linmodel_projected_equations (scene gravity given velocities accelerations form)
   "[e_1, ..] of M q'' - f in the names of the VELOCITIES and ACCELERATIONS."
@@ -79,4 +80,5 @@
      (lambda (a)
        (multiple-value-bind (rows right) (linmodel-projection a scene gravity given velocities)
          (linmodel-lower-vector
-          a (linmodel-residuals a rows right (linmodel-lift-vector a accelerations))))))))
+          a (linmodel-residuals a rows right (linmodel-lift-vector a accelerations)))))
+     (linmodel-plane-p (third scene)))))

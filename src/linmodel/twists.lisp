@@ -34,6 +34,11 @@
 (defun linmodel-link-rows (a link)
   (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr (sixth link))))
 
+(defun linmodel-plane-p (links)
+  "Whether all LINKS turn about one axis."
+  (let ((axes (loop for link in (cdr links) append (mapcar #'second (cdr (fourth link))))))
+    (every (lambda (axis) (eql axis (first axes))) axes)))
+
 (defun linmodel-turned (a turn vector)
   "The components of VECTOR in axes turned about one of them."
   (let* ((axis (linmodel-turn-axis turn)) (i (mod axis 3)) (j (mod (1+ axis) 3))
@@ -129,7 +134,8 @@
      (flet ((lower (twist) (linmodel-lower-twist a twist)))
        (cons '(mlist simp)
              (mapcar (lambda (twists) (cons '(mlist simp) (mapcar #'lower twists)))
-                     (linmodel-all-twists a (cdr links) n)))))))
+                     (linmodel-all-twists a (cdr links) n)))))
+   (linmodel-plane-p links)))
 
 (defun linmodel-lower-twist (a twist)
   (destructuring-bind (i w . v) twist
@@ -154,7 +160,8 @@
      (let ((carried (linmodel-carried-vectors a links vector)) (sum 0))
        (dolist (body (cdr bodies) (funcall (linmodel-arithmetic-lower a) sum))
          (let ((weight (linmodel-weight a body (nth (1- (second body)) carried))))
-           (setq sum (linmodel-plus a sum weight))))))))
+           (setq sum (linmodel-plus a sum weight))))))
+   (linmodel-plane-p links)))
 
 (defun linmodel-carried-vectors (a links vector)
   (let ((start (cons (linmodel-lift-vector a vector) 0)))
