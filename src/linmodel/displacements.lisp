@@ -37,16 +37,40 @@
         (setq sum (linmodel-plus a sum (linmodel-momentum-along a body (nth k displacements)
                                                                 (nth k twists) velocities)))))))
 
-(defun $linmodel_rigid_momenta (links bodies velocities displacements form)
-  "The momenta along DISPLACEMENTS [w, v] of O_0 in axes 0; VELOCITIES are [1, v_1, ..]."
+(defun linmodel-computed-momenta (links bodies velocities form momenta)
+  "MOMENTA of the arithmetic, the twists of each link, bodies, [1, v_1, ..], as a Maxima list."
   (linmodel-compute
    form
    (lambda (a)
-     (let ((twists (linmodel-all-twists a (cdr links) (- (length velocities) 2)))
-           (bodies (mapcar (lambda (body) (linmodel-read-body a body)) (cdr bodies)))
-           (velocities (linmodel-lift-vector a velocities)))
-       (linmodel-lower-vector
-        a (loop for displacement in (cdr displacements)
-                for (w v) = (mapcar (lambda (x) (linmodel-lift-vector a x)) (cdr displacement))
-                for start = (cons w v)
-                collect (linmodel-all-along a (cdr links) bodies twists velocities start)))))))
+     (linmodel-lower-vector
+      a (funcall momenta a
+                 (linmodel-all-twists a (cdr links) (- (length velocities) 2))
+                 (mapcar (lambda (body) (linmodel-read-body a body)) (cdr bodies))
+                 (linmodel-lift-vector a velocities))))))
+
+(defun $linmodel_rigid_momenta (links bodies velocities displacements form)
+  "The momenta along DISPLACEMENTS [w, v] of O_0 in axes 0; VELOCITIES are [1, v_1, ..]."
+  (linmodel-computed-momenta
+   links bodies velocities form
+   (lambda (a twists bodies velocities)
+     (loop for displacement in (cdr displacements)
+           for (w v) = (mapcar (lambda (x) (linmodel-lift-vector a x)) (cdr displacement))
+           collect (linmodel-all-along a (cdr links) bodies twists velocities (cons w v))))))
+
+;;; The momentum of what one link carries about an axis of its own through O_k, (Theta.w + m c x
+;;; v).e + h.e: a displacement of this link alone.
+
+(defun linmodel-about-own-axis (a k direction bodies twists velocities)
+  (let ((turn (cons (linmodel-lift-vector a direction) (list 0 0 0))) (sum 0))
+    (dolist (body bodies sum)
+      (when (= (linmodel-body-link body) k)
+        (setq sum (linmodel-plus a sum (linmodel-momentum-along a body turn (nth (1- k) twists)
+                                                                velocities)))))))
+
+(defun $linmodel_own_momenta (links bodies velocities axes form)
+  "The momenta about the AXES [k, e], e in the axes of link k; VELOCITIES are [1, v_1, ..]."
+  (linmodel-computed-momenta
+   links bodies velocities form
+   (lambda (a twists bodies velocities)
+     (loop for (nil k direction) in (cdr axes)
+           collect (linmodel-about-own-axis a k direction bodies twists velocities)))))
