@@ -37,3 +37,11 @@ letters are no misprint."
         (let ((distance (archive-edit-distance name candidate)))
           (when (< distance least)
             (setf best candidate least distance)))))))
+
+(defun $archive_nearest (name known)
+  "The one of the Maxima list KNOWN that the symbol NAME is most likely meant to be, or false. To a
+single letter every other one is as near."
+  (let* ((word (core-spelling name))
+         (near (and (> (length word) 1)
+                    (archive-nearest word (mapcar #'core-spelling (cdr known))))))
+    (and near (find near (cdr known) :key #'core-spelling :test #'string=))))
