@@ -284,8 +284,8 @@
   (handler-case (funcall function)
     (error ()
       (let ((folder (subseq file 0 (algebra-folder-length file))))
-        (core-error "~a cannot be written: ~:[the folder ~a~;the working folder~*~] does not exist ~
-                     or cannot be written in, or a folder has this name"
+        (core-error "~a cannot be written: ~:[the folder ~a~;the working folder~*~] does not ~
+                     exist or cannot be written in, or a folder has this name"
                     file (string= folder "") folder)))))
 
 (defun algebra-open-draft (draft file)
