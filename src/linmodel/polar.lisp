@@ -87,7 +87,9 @@
 
 (defun linmodel-polar-product (one other)
   (destructuring-bind ((u p r) (z q s)) (list one other)
-    (let ((angle (sub u z)))
-      (flet ((times (x y) (linmodel-product-or-0 x y)))
-        (add (times (add (times p q) (times r s)) (linmodel-cosine angle))
-             (times (sub (times r q) (times p s)) (linmodel-sine angle)))))))
+    (flet ((times (x y) (linmodel-product-or-0 x y)))
+      (let ((along (add (times p q) (times r s))) (angle (sub u z)))
+        (if (eql angle 0)
+            along
+            (add (times along (linmodel-cosine angle))
+                 (times (sub (times r q) (times p s)) (linmodel-sine angle))))))))
