@@ -79,6 +79,7 @@ END {
   table("programs of many bodies, seconds of CPU", "spatial", "linmodel_solved linmodel_inverse", "seconds")
   table("programs of many bodies, operations", "spatial", "linmodel_solved linmodel_inverse", "operations")
 
+  print "\n![seconds of CPU over n](bench.svg)"
   print "\nEvery result of this package is tested against quotients of differences of L in fixed axes, and that is in its seconds;"
   print "the peers do no such test."
   printf "\n## Targets\n\n"
