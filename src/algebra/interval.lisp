@@ -303,8 +303,7 @@
       (0 (* 30 fraction)))))
 
 (defun algebra-facts-fail-p ()
-  (loop for fact in (cdr ($facts))
-        thereis (and (consp fact)
-                     (member (caar fact) '(mgreaterp mgeqp))
-                     (let ((sign (algebra-interval-sign-at (sub (cadr fact) (caddr fact)) 64)))
-                       (and sign (minusp sign))))))
+  (loop for fact in (core-facts)
+        thereis (multiple-value-bind (e needed) (core-fact-difference fact)
+                  (let ((sign (and (member needed '($pos $pz)) (algebra-interval-sign-at e 64))))
+                    (and sign (minusp sign))))))

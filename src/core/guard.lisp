@@ -6,6 +6,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "core/facts"))
+
 (defvar *core-guarded* nil "True inside the guard.")
 (defvar *core-kept-values* nil
   "Variables that share packages bound while guarded, with their values: seen inside the guard
@@ -76,26 +79,6 @@ last `piece' of an expression."
     (loop for (name) in saved do (mremprop name 'depends))
     (unwind-protect (funcall function)
       (loop for (name . list) in saved do (mputprop name list 'depends)))))
-
-(defun core-contradicted (facts)
-  "The first of FACTS that contradicts what the session assumes, or nil."
-  (with-new-context ()
-    (find-if (lambda (fact) (eq (assume fact) '$inconsistent)) facts)))
-
-(defun core-call-with-facts (facts function)
-  (dolist (fact facts) (assume fact))
-  (funcall function))
-
-(defun core-with-facts (facts function)
-  "Calls FUNCTION in a context below the user's in which FACTS are assumed; where the two disagree
-the user's are left out."
-  (let ((contradicted (core-contradicted facts)))
-    (cond (contradicted
-           (core-warn "the archive says ~a; what you assumed in the session contradicts it and ~
-                       is not used here"
-                      (core-words (list contradicted)))
-           (with-new-context ('$global) (core-call-with-facts facts function)))
-          (t (with-new-context () (core-call-with-facts facts function))))))
 
 (defun core-put-away (name)
   "Keeps the value of NAME for the next use of the guard, and unbinds it."

@@ -6,6 +6,8 @@
 
 (defparameter *forms-kinds* '("mechanical" "lagrangian" "circuit"))
 
+(core-fact-judge "algebra/facts" 'algebra-name-signs)
+
 ;;; Expressions with velocities
 
 (core-public "TimeDerivative" :forms '(("expressions" "expression" "coordinates")))

@@ -1,0 +1,191 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; A proof that e > 0 from g_1 > 0, g_2 >= 0, ..: e = sum c_k p_k, c_k >= 0, the p_k products of
+;;; the g_j and squares of monomials; the c_k by linear programming over the rationals (Krivine;
+;;; Handelman, Representing polynomials by positive linear functions on compact convex
+;;; polyhedra, Pacific J. Math. 132, 1988). That 0 has such a form with a p_k > 0 proves that
+;;; the g_j contradict each other.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/common" "algebra/size" "algebra/simplex"))
+
+(defparameter *algebra-certificate-size* 6000
+  "Largest product of the numbers of monomials and of products for which a proof is sought.")
+
+;;; Polynomials in names and kernels as tables: list of exponents -> rational coefficient
+
+(defun algebra-kernels-of (expressions)
+  "The names and kernels in which the expanded EXPRESSIONS are polynomials with rational
+coefficients."
+  (let ((kernels '()))
+    (dolist (e expressions (nreverse kernels))
+      (dolist (term (algebra-summands e))
+        (dolist (factor (algebra-factors-of term))
+          (let ((base (algebra-base-of factor)))
+            (unless (algebra-rational-number base) (pushnew base kernels :test #'alike1))))))))
+
+(defun algebra-summands (e) (if (mplusp e) (cdr e) (list e)))
+(defun algebra-factors-of (e) (if (mtimesp e) (cdr e) (list e)))
+
+(defun algebra-base-of (factor)
+  (if (and (mexptp factor) (integerp (caddr factor)) (plusp (caddr factor)))
+      (cadr factor)
+      factor))
+
+(defun algebra-table-of (e kernels)
+  (let ((table (make-hash-table :test #'equal)))
+    (dolist (term (algebra-summands e) table)
+      (let ((coefficient 1) (exponents (make-list (length kernels) :initial-element 0)))
+        (dolist (factor (algebra-factors-of term))
+          (let ((number (algebra-rational-number factor)))
+            (if number
+                (setq coefficient (* coefficient number))
+                (incf (nth (position (algebra-base-of factor) kernels :test #'alike1) exponents)
+                      (if (eq (algebra-base-of factor) factor) 1 (caddr factor))))))
+        (incf (gethash exponents table 0) coefficient)))))
+
+(defun algebra-table-product (a b)
+  (let ((table (make-hash-table :test #'equal)))
+    (maphash (lambda (m x)
+               (maphash (lambda (n y) (incf (gethash (mapcar #'+ m n) table 0) (* x y))) b))
+             a)
+    table))
+
+(defun algebra-table-degree (table)
+  (reduce #'max (loop for exponents being the hash-keys of table
+                      collect (reduce #'+ exponents))
+          :initial-value 0))
+
+;;; Generators: (table . strict)
+
+(defun algebra-generators (gaps kernels)
+  "What the GAPS ((e . sign) ..) say, as tables with whether they are strict; the number 1; squares
+of kernels."
+  (append
+   (list (cons (algebra-table-of 1 kernels) t))
+   (loop for (e . sign) in gaps
+         append (ecase sign
+                  ($pos (list (cons (algebra-table-of e kernels) t)))
+                  ($neg (list (cons (algebra-table-of (algebra-turned e) kernels) t)))
+                  ($pz (list (cons (algebra-table-of e kernels) nil)))
+                  ($nz (list (cons (algebra-table-of (algebra-turned e) kernels) nil)))
+                  ($zero (list (cons (algebra-table-of e kernels) nil)
+                               (cons (algebra-table-of (algebra-turned e) kernels) nil)))
+                  (($pn $unknown) '())))))
+
+(defun algebra-turned (e) ($expand (mul -1 e)))
+
+(defun algebra-square-generators (kernels known)
+  "Squares of those names among the KERNELS whose sign is not KNOWN, not strict."
+  (loop for kernel in kernels for place from 0
+        unless (or (not (symbolp kernel)) (member kernel known :test #'eq))
+          collect (let ((table (make-hash-table :test #'equal)))
+                    (setf (gethash (loop for k from 0 below (length kernels)
+                                         collect (if (= k place) 2 0))
+                                   table)
+                          1)
+                    (cons table nil))))
+
+(defun algebra-next-products (products generators degree)
+  "Each of PRODUCTS times each of GENERATORS, up to DEGREE, with those there were."
+  (algebra-distinct-generators
+   (append products
+           (loop for (p . strict) in products
+                 append (loop for (g . also) in generators
+                              when (<= (+ (algebra-table-degree p) (algebra-table-degree g)) degree)
+                                collect (cons (algebra-table-product p g) (and strict also)))))))
+
+(defun algebra-distinct-generators (generators)
+  (let ((seen (make-hash-table :test #'equal)) (distinct '()))
+    (dolist (g generators (nreverse distinct))
+      (let ((key (sort (loop for m being the hash-keys of (car g) using (hash-value x)
+                             unless (zerop x) collect (cons m x))
+                       #'algebra-monomial-less)))
+        (unless (or (null key) (gethash (cons key (cdr g)) seen))
+          (setf (gethash (cons key (cdr g)) seen) t)
+          (push g distinct))))))
+
+(defun algebra-monomial-less (a b)
+  (loop for x in (car a) for y in (car b)
+        do (cond ((< x y) (return t)) ((> x y) (return nil)))
+        finally (return (< (cdr a) (cdr b)))))
+
+;;; The proof
+
+(defun algebra-certificate (e gaps)
+  "pos or pz where that is proved of the expanded polynomial E from the GAPS, else unknown."
+  (let* ((gaps (algebra-related-gaps e gaps))
+         (kernels (algebra-kernels-of (cons e (mapcar #'car gaps))))
+         (target (algebra-table-of e kernels))
+         (degree (max 2 (algebra-table-degree target)))
+         (generators (remove-if (lambda (g) (> (algebra-table-degree (car g)) degree))
+                                (append (algebra-generators gaps kernels)
+                                        (algebra-square-generators kernels
+                                                                   (mapcar #'car gaps))))))
+    (if (or (> (length kernels) 12) (> degree 8))
+        '$unknown
+        (algebra-certified target generators degree))))
+
+(defun algebra-related-gaps (e gaps)
+  "Those of GAPS that share names with E, or with others that do; all where E has none."
+  (let ((names (cdr ($listofvars e))) (related '()))
+    (if (null names)
+        gaps
+        (loop for more = (remove-if-not
+                          (lambda (gap) (intersection names (cdr ($listofvars (car gap)))
+                                                      :test #'alike1))
+                          (set-difference gaps related))
+              while more
+              do (setq related (append related more)
+                       names (union names (cdr ($listofvars (cons '(mlist) (mapcar #'car more))))
+                                    :test #'alike1))
+              finally (return related)))))
+
+(defun algebra-certified (target generators degree)
+  "The answer by the generators, else by products of two, of three, .. of them."
+  (let ((answer '$unknown))
+    (loop with products = generators
+          for sign = (algebra-certified-by target products)
+          do (cond ((member sign '($pos :too-large)) (setq answer (if (eq sign '$pos) sign answer))
+                    (return answer))
+                   ((eq sign '$pz) (setq answer sign)))
+             (let ((next (algebra-next-products products (cdr generators) degree)))
+               (when (= (length next) (length products)) (return answer))
+               (setq products next)))))
+
+(defun algebra-certified-by (target products)
+  (let ((monomials (algebra-monomials-of (cons target (mapcar #'car products)))))
+    (if (> (* (length monomials) (length products)) *algebra-certificate-size*)
+        :too-large
+        (let ((lacking (algebra-lacking-strictness target products monomials)))
+          (cond ((null lacking) '$unknown)
+                ((= lacking 1) '$pz)
+                (t '$pos))))))
+
+(defun algebra-monomials-of (tables)
+  (let ((seen (make-hash-table :test #'equal)) (monomials '()))
+    (dolist (table tables (nreverse monomials))
+      (loop for m being the hash-keys of table
+            unless (gethash m seen)
+              do (setf (gethash m seen) t)
+                 (push m monomials)))))
+
+(defun algebra-lacking-strictness (target products monomials)
+  "The least s >= 0 for which TARGET = sum c_k p_k where the c_k of strict p_k and s sum up to 1 or
+more: 1 where none of these is needed; nil where there is no such sum."
+  (let* ((strict (mapcar (lambda (p) (if (cdr p) 1 0)) products))
+         (value (algebra-simplex
+                 (cons (append strict (list 1 -1))
+                       (loop for m in monomials
+                             collect (append (mapcar (lambda (p) (gethash m (car p) 0)) products)
+                                             '(0 0))))
+                 (cons 1 (loop for m in monomials collect (gethash m target 0)))
+                 (append (mapcar (constantly 0) strict) (list -1 0)))))
+    (and value (- value))))
+
+(defun algebra-gaps-contradict-p (gaps)
+  "Whether the GAPS are proved to contradict each other: a sum of products of them, one of these
+positive, vanishes."
+  (and gaps (eq '$pos (algebra-certificate 0 gaps))))

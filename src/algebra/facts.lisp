@@ -1,0 +1,183 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; What follows from the facts at once: each relation a > b becomes a sign of the numerator of
+;;; a - b, factor by factor; a factor whose companions have known signs gets its own; in a sum of
+;;; known sign a term that all others work against has that sign too (A > B, B > 0: A > 0).
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/normal" "algebra/plain_sign" "algebra/certificate"))
+
+(defparameter *algebra-kept-knowledge* 16 "For how many lists of facts knowledge is kept.")
+(defvar *algebra-knowledges* '() "Knowledge of lists of facts used lately, newest first.")
+
+(defun algebra-what-is-known ()
+  "What is known here; kept for the next question under the same facts."
+  (let* ((facts (core-facts))
+         (kept (or (find facts *algebra-knowledges* :key #'knowledge-facts :test #'equal)
+                   (algebra-learned facts))))
+    (setq *algebra-knowledges*
+          (cons kept (remove kept (subseq *algebra-knowledges* 0
+                                          (min (1- *algebra-kept-knowledge*)
+                                               (length *algebra-knowledges*)))
+                             :test #'eq)))
+    kept))
+
+(defun algebra-name-signs (facts)
+  "((name . sign) ..) that follow from FACTS, or :contradiction."
+  (let ((knowledge (algebra-learned facts)))
+    (if (knowledge-contradiction knowledge)
+        :contradiction
+        (remove-if-not #'symbolp (knowledge-items knowledge) :key #'car))))
+
+(defun algebra-learned (facts)
+  (let* ((knowledge (make-algebra-knowledge :facts facts))
+         (*algebra-knowledge* knowledge)
+         (products (loop for fact in facts append (algebra-fact-product fact))))
+    (loop repeat (+ 2 (length products))
+          for before = (algebra-known-count knowledge)
+          do (mapc #'algebra-learn-product products)
+             (loop for (sum . sign) in (knowledge-sums knowledge)
+                   do (algebra-learn-terms sum sign))
+          until (equal before (algebra-known-count knowledge)))
+    (clrhash (knowledge-memo knowledge))
+    (unless (knowledge-contradiction knowledge)
+      (setf (knowledge-contradiction knowledge)
+            (and (knowledge-sums knowledge) (algebra-gaps-contradict-p (algebra-gaps knowledge)))))
+    knowledge))
+
+(defun algebra-known-count (knowledge)
+  "Changes whenever something is learned."
+  (list (mapcar #'cdr (knowledge-items knowledge)) (mapcar #'cdr (knowledge-sums knowledge))))
+
+;;; A relation as a product of factors with a sign
+
+(defun algebra-exact (e)
+  "E with its floating numbers as the fractions that they print as."
+  (cond ((floatp e) (let ((number (rationalize e)))
+                      (if (integerp number)
+                          number
+                          (list '(rat simp) (numerator number) (denominator number)))))
+        ((atom e) e)
+        (t (cons (remove 'simp (car e)) (mapcar #'algebra-exact (cdr e))))))
+
+(defun algebra-fact-product (fact)
+  "((sign (factor . power) ..)), or nothing where FACT is no formula."
+  (multiple-value-bind (e sign) (core-fact-difference fact)
+    (let ((factors (algebra-quietly
+                    (lambda () (algebra-ratio-factors (simplify (algebra-exact e)))))))
+      (and factors (list (cons sign factors))))))
+
+(defun algebra-ratio-factors (e)
+  "((factor . power) ..) of E = numerator/denominator; powers below the line are negative."
+  (destructuring-bind (n d) (cdr ($algebra_ratio e))
+    (append (algebra-factor-powers n)
+            (loop for (factor . power) in (algebra-factor-powers d)
+                  collect (cons factor (- power))))))
+
+(defun algebra-factor-powers (e)
+  "((factor . power) ..) of E; what is too long to be factored in seconds is one factor."
+  (let ((product (or (and (< (algebra-size e) 1000) (algebra-quietly (lambda () ($factor e)))) e)))
+    (loop for factor in (if (mtimesp product) (cdr product) (list product))
+          collect (if (and (mexptp factor) (integerp (caddr factor)))
+                      (cons (cadr factor) (caddr factor))
+                      (cons factor 1)))))
+
+;;; Learning
+
+(defun algebra-learn-product (product)
+  "From the sign of a product what is open of its factors."
+  (destructuring-bind (sign . factors) product
+    (when (member sign '($pos $neg $pn))
+      (loop for (factor) in factors do (algebra-learn factor '$pn)))
+    (let ((open '()) (others '$pos))
+      (loop for (factor . power) in factors
+            for known = (algebra-part-sign factor)
+            do (cond ((evenp power) (when (member sign '($pz $nz $zero))
+                                      (unless (member known '($pos $neg $pn))
+                                        (setq others '$unknown))))
+                     ((member known '($pos $neg))
+                      (setq others (algebra-times-sign others known)))
+                     (t (push factor open))))
+      (cond ((not (member others '($pos $neg))))
+            ((null open) (algebra-agree others sign))
+            (t (algebra-learn (if (cdr open) (algebra-open-product open) (car open))
+                              (algebra-times-sign others sign)))))))
+
+(defun algebra-open-product (factors)
+  "The expanded product of FACTORS, or 1 with nothing to learn where it would be long."
+  (if (< (reduce #'* factors :key #'algebra-size) 2000)
+      ($expand (muln factors nil))
+      1))
+
+(defun algebra-learn (e sign)
+  "E, a name, a kernel or a sum, has SIGN."
+  (cond (($constantp e) (algebra-agree (algebra-constant-sign e) sign))
+        ((mtimesp e))
+        ((mplusp e) (algebra-learn-sum e sign))
+        (t (algebra-learn-item e sign))))
+
+(defun algebra-agree (known sign)
+  "The sign of which both hold; notes where none does."
+  (when (algebra-opposed-p known sign)
+    (setf (knowledge-contradiction *algebra-knowledge*) t))
+  (algebra-both-signs known sign))
+
+(defun algebra-opposed-p (a b)
+  (and (not (eq a '$unknown)) (not (eq b '$unknown))
+       (null (intersection (algebra-sign-values a) (algebra-sign-values b)))))
+
+(defun algebra-sign-values (sign)
+  (ecase sign
+    ($pos '(1)) ($neg '(-1)) ($zero '(0)) ($pz '(0 1)) ($nz '(-1 0)) ($pn '(-1 1))))
+
+(defun algebra-learn-item (item sign)
+  (let ((entry (assoc item (knowledge-items *algebra-knowledge*) :test #'alike1)))
+    (if entry
+        (setf (cdr entry) (algebra-agree (cdr entry) sign))
+        (push (cons item (algebra-agree (algebra-part-sign item) sign))
+              (knowledge-items *algebra-knowledge*)))))
+
+(defun algebra-learn-sum (sum sign)
+  (let* ((plain ($expand sum))
+         (turned (mul -1 plain))
+         (entry (or (assoc plain (knowledge-sums *algebra-knowledge*) :test #'alike1)
+                    (assoc ($expand turned) (knowledge-sums *algebra-knowledge*)
+                           :test #'alike1))))
+    (cond ((null entry)
+           (push (cons plain (algebra-agree (algebra-simple-sign plain) sign))
+                 (knowledge-sums *algebra-knowledge*)))
+          ((alike1 (car entry) plain) (setf (cdr entry) (algebra-agree (cdr entry) sign)))
+          (t (setf (cdr entry)
+                   (algebra-agree (cdr entry) (algebra-opposite-sign sign)))))))
+
+(defun algebra-learn-terms (sum sign)
+  "In a SUM of known sign a term that all the others work against."
+  (let ((target (case sign (($pos $pz) '$pz) (($neg $nz) '$nz))))
+    (when (and target (mplusp sum))
+      (dolist (term (cdr sum))
+        (let ((others (algebra-common-sign (remove term (cdr sum) :test #'eq)
+                                           #'algebra-part-sign)))
+          (when (algebra-works-against-p others target)
+            (algebra-learn-term term (if (or (member others '($pos $neg))
+                                             (member sign '($pos $neg)))
+                                         (if (eq target '$pz) '$pos '$neg)
+                                         target))))))))
+
+(defun algebra-works-against-p (others target)
+  (member others (if (eq target '$pz) '($neg $nz $zero) '($pos $pz $zero))))
+
+(defun algebra-learn-term (term sign)
+  "Of TERM = number * a * b .. with SIGN the one factor whose sign is open."
+  (algebra-learn-product
+   (cons sign (loop for factor in (if (mtimesp term) (cdr term) (list term))
+                    collect (if (and (mexptp factor) (integerp (caddr factor)))
+                                (cons (cadr factor) (caddr factor))
+                                (cons factor 1))))))
+
+;;; What is known, as gaps for a proof
+
+(defun algebra-gaps (knowledge)
+  "((e . sign) ..) of names, kernels and sums."
+  (append (knowledge-items knowledge) (knowledge-sums knowledge)))

@@ -1,0 +1,179 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; The sign of an expression as it stands: numbers exactly, names, kernels and sums as the facts
+;;; give them, products and powers by their factors, sums by terms that agree. Signs are pos, neg,
+;;; zero, pz (>= 0), nz (<= 0), pn (not zero) and unknown; they speak of real values of the names
+;;; for which the expression is defined.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/common" "algebra/zero" "algebra/interval"))
+
+(defstruct (algebra-knowledge (:conc-name knowledge-))
+  facts           ; the relations it was made from
+  (items '())     ; ((name or kernel . sign) ..)
+  (sums '())      ; ((expanded sum . sign) ..)
+  (contradiction nil)
+  (memo (make-hash-table :test #'equal)))
+
+(defvar *algebra-knowledge* nil "What is known of names, kernels and sums.")
+
+(defun algebra-part-sign (e)
+  (if ($constantp e) (algebra-constant-sign e) (algebra-simple-sign e)))
+
+(defun algebra-constant-sign (e)
+  (let ((number (algebra-rational-number e)))
+    (cond (number (cond ((plusp number) '$pos) ((minusp number) '$neg) (t '$zero)))
+          ((eq t (algebra-zero-test e)) '$zero)
+          (t (case (algebra-interval-sign e)
+               (1 '$pos)
+               (-1 '$neg)
+               (t '$unknown))))))
+
+(defun algebra-simple-sign (e)
+  (cond ((atom e) (algebra-known-item e))
+        ((mplusp e) (algebra-sum-sign e))
+        ((mtimesp e) (algebra-product-sign (cdr e)))
+        ((mexptp e) (algebra-both-signs (algebra-known-item e)
+                                        (algebra-power-sign (cadr e) (caddr e))))
+        (t (algebra-both-signs (algebra-known-item e) (algebra-function-sign e)))))
+
+;;; What the facts say
+
+(defun algebra-known-item (e)
+  (if *algebra-knowledge*
+      (or (cdr (assoc e (knowledge-items *algebra-knowledge*) :test #'alike1)) '$unknown)
+      '$unknown))
+
+(defun algebra-known-sum (sum)
+  (let ((sums (and *algebra-knowledge* (knowledge-sums *algebra-knowledge*))))
+    (flet ((known (e) (cdr (assoc e sums :test #'alike1))))
+      (cond ((null sums) '$unknown)
+            ((known sum))
+            ((let ((turned (known (mul -1 sum)))) (and turned (algebra-opposite-sign turned))))
+            (t '$unknown)))))
+
+;;; Signs of sums, products, powers
+
+(defun algebra-both-signs (a b)
+  "The sign of which A and B are both known."
+  (cond ((eq a '$unknown) b)
+        ((or (eq b '$unknown) (eq a b)) a)
+        ((subsetp '($pz $nz) (list a b)) '$zero)
+        ((subsetp '($pz $pn) (list a b)) '$pos)
+        ((subsetp '($nz $pn) (list a b)) '$neg)
+        ((member a '($pos $neg $zero)) a)
+        (t b)))
+
+(defun algebra-opposite-sign (sign)
+  (case sign
+    ($pos '$neg) ($neg '$pos) ($pz '$nz) ($nz '$pz)
+    (t sign)))
+
+(defun algebra-sum-sign (sum)
+  (algebra-both-signs (algebra-known-sum sum)
+                      (algebra-common-sign (cdr sum) #'algebra-part-sign)))
+
+(defun algebra-common-sign (terms sign-of)
+  "The sign of a sum of TERMS that do not work against each other, else unknown."
+  (let ((sum '$zero))
+    (dolist (term terms sum)
+      (setq sum (algebra-plus-sign sum (funcall sign-of term)))
+      (when (eq sum '$unknown) (return sum)))))
+
+(defun algebra-plus-sign (a b)
+  (cond ((eq a '$zero) b)
+        ((eq b '$zero) a)
+        ((and (member a '($pos $pz)) (member b '($pos $pz))) (if (eq a '$pos) a b))
+        ((and (member a '($neg $nz)) (member b '($neg $nz))) (if (eq a '$neg) a b))
+        (t '$unknown)))
+
+(defun algebra-product-sign (factors)
+  (let ((sign '$pos))
+    (dolist (factor factors sign)
+      (setq sign (algebra-times-sign sign (algebra-part-sign factor))))))
+
+(defun algebra-times-sign (a b)
+  (cond ((or (eq a '$zero) (eq b '$zero)) '$zero)
+        ((or (eq a '$unknown) (eq b '$unknown)) '$unknown)
+        ((eq a '$pos) b)
+        ((eq b '$pos) a)
+        ((eq a '$neg) (algebra-opposite-sign b))
+        ((eq b '$neg) (algebra-opposite-sign a))
+        ((and (eq a '$pn) (eq b '$pn)) '$pn)
+        ((or (eq a '$pn) (eq b '$pn)) '$unknown)
+        ((eq a b) '$pz)
+        (t '$nz)))
+
+(defun algebra-power-sign (base exponent)
+  "Roots of odd order of negative numbers are real, as Maxima has them."
+  (let ((number (algebra-rational-number exponent)))
+    (cond ((and number (oddp (denominator number)))
+           (algebra-odd-root-sign (algebra-part-sign base) number base))
+          (number (case (algebra-part-sign base)
+                    ($pos '$pos)
+                    ($zero (if (plusp number) '$zero '$unknown))
+                    ($pz (if (plusp number) '$pz '$pos))
+                    (t '$unknown)))
+          ((and (eq (algebra-part-sign base) '$pos) (algebra-real-p exponent)) '$pos)
+          (t '$unknown))))
+
+(defun algebra-odd-root-sign (sign number base)
+  "The sign of base^(p/q), q odd."
+  (cond ((eq sign '$zero) (if (plusp number) '$zero '$unknown))
+        ((oddp (numerator number))
+         (if (minusp number)
+             (algebra-both-signs sign (if (algebra-real-p base) '$pn '$unknown))
+             sign))
+        ((or (member sign '($pos $neg $pn))
+             (and (minusp number) (algebra-real-p base)))
+         '$pos)
+        ((or (not (eq sign '$unknown)) (algebra-real-p base)) '$pz)
+        (t '$unknown)))
+
+;;; Functions
+
+(defun algebra-function-sign (e)
+  (let ((arguments (cdr e)))
+    (case (caar e)
+      (mabs (case (algebra-part-sign (car arguments))
+              (($pos $neg $pn) '$pos)
+              ($zero '$zero)
+              (t '$pz)))
+      (%cosh (if (algebra-real-p (car arguments)) '$pos '$unknown))
+      ((%sinh %tanh %atan %asinh %signum) (algebra-part-sign (car arguments)))
+      (%log (if (eq (algebra-part-sign (car arguments)) '$pos)
+                (algebra-part-sign (sub (car arguments) 1))
+                '$unknown))
+      ($max (algebra-largest-sign (mapcar #'algebra-part-sign arguments)))
+      ($min (algebra-opposite-sign
+             (algebra-largest-sign
+              (mapcar (lambda (part) (algebra-opposite-sign (algebra-part-sign part)))
+                      arguments))))
+      (t '$unknown))))
+
+(defun algebra-largest-sign (signs)
+  "The sign of the largest of numbers with these SIGNS."
+  (cond ((member '$pos signs) '$pos)
+        ((every (lambda (sign) (eq sign '$neg)) signs) '$neg)
+        ((intersection '($pz $zero) signs)
+         (if (subsetp signs '($neg $nz $zero)) '$zero '$pz))
+        ((subsetp signs '($neg $nz)) '$nz)
+        (t '$unknown)))
+
+(defun algebra-real-p (e)
+  "Whether E is real for real values of its names that the facts allow, where it is defined."
+  (cond ((atom e) (not (eq e '$%i)))
+        ((mnump e) t)
+        ((not (every #'algebra-real-p (cdr e))) nil)
+        ((mexptp e) (algebra-real-power-p (cadr e) (caddr e)))
+        (t (case (caar e)
+             (%log (eq (algebra-part-sign (cadr e)) '$pos))
+             ((%asin %acos %acosh %atanh %asec %acsc %acoth %asech) nil)
+             (t t)))))
+
+(defun algebra-real-power-p (base exponent)
+  (let ((number (algebra-rational-number exponent)))
+    (or (and number (oddp (denominator number)))
+        (member (algebra-part-sign base) (if number '($pos $pz $zero) '($pos))))))

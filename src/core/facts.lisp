@@ -1,0 +1,167 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Facts: what is known of names while we compute. They are data of our own, bound for a call:
+;;; the relations of the archive's parameters and what the session assumes in its context, in
+;;; those that this one includes and in the active ones. Maxima's data base holds meanwhile only
+;;; what follows for the sign of single names: more of it makes its `sign' wrong on sums.
+
+(in-package :maxima)
+
+(defvar *core-facts* :session
+  "The relations that hold, a list; :session outside of a call: whatever is assumed there.")
+(defvar *core-fact-judge* nil
+  "Part and function that find the signs of single names from relations.")
+
+(defun core-fact-judge (part function)
+  "States what finds (name . sign), .. from a list of relations, or :contradiction."
+  (setq *core-fact-judge* (cons part function)))
+
+(defun core-facts ()
+  "The relations that hold here."
+  (if (eq *core-facts* :session) (core-session-facts) *core-facts*))
+
+(defun core-judged (facts)
+  "The signs ((name . sign) ..) of single names that follow from FACTS, or :contradiction."
+  (when facts
+    (core-require (car *core-fact-judge*))
+    (funcall (cdr *core-fact-judge*) facts)))
+
+(defun core-relation-p (fact)
+  "Whether FACT, as Maxima's data base gives it, compares two expressions."
+  (case (caar fact)
+    ((mgreaterp mgeqp $equal) t)
+    (mnot (eq (caar (cadr fact)) '$equal))))
+
+(defun core-fact-difference (fact)
+  "Two values: the expression of which FACT tells the sign, and that sign."
+  (destructuring-bind (a &optional (b 0)) (cdr fact)
+    (ecase (caar fact)
+      (mgreaterp (values (sub a b) '$pos))
+      (mgeqp (values (sub a b) '$pz))
+      (mlessp (values (sub b a) '$pos))
+      (mleqp (values (sub b a) '$pz))
+      ((mequal $equal) (values (sub a b) '$zero))
+      ((mnotequal $notequal) (values (sub a b) '$pn))
+      (mnot (values (sub (cadr a) (caddr a)) '$pn)))))
+
+;;; Facts of a case
+
+(defun core-plain-relations (conditions)
+  "Those of CONDITIONS that are relations, `and' taken apart."
+  (loop for condition in conditions
+        when (and (consp condition) (consp (car condition)))
+          append (case (caar condition)
+                   ((mgreaterp mgeqp mlessp mleqp $equal mequal $notequal mnotequal)
+                    (list condition))
+                   (mnot (and (core-relation-p condition) (list condition)))
+                   (mand (core-plain-relations (cdr condition))))))
+
+(defmspec $core_given (form)
+  ;; core_given(conditions, e): the value of e where the conditions hold too.
+  (let* ((conditions (meval (second form)))
+         (*core-facts* (append (core-plain-relations (cdr conditions)) (core-facts))))
+    (meval (third form))))
+
+;;; What the session assumes
+
+(defun core-visible-contexts ()
+  "The current context, the active ones, and those that they include."
+  (let ((seen '()))
+    (labels ((visit (place)
+               (unless (member place seen)
+                 (push place seen)
+                 (mapc #'visit (zl-get place 'subc)))))
+      (mapc #'visit (cons $context (cdr $activecontexts))))
+    (nreverse seen)))
+
+(defun core-users-fact-p (fact)
+  "Whether FACT is about a name that is no constant of Maxima's own."
+  (labels ((own (e) (cond ((symbolp e) (let ((name (symbol-name e)))
+                                         (and (char= (char name 0) #\$)
+                                              (char/= (char name (min 1 (1- (length name)))) #\%))))
+                          ((consp e) (or (and (consp (car e)) (own (caar e)))
+                                         (some #'own (cdr e)))))))
+    (some #'own (cdr fact))))
+
+(defun core-session-facts ()
+  "The relations that the session assumes."
+  (loop for place in (core-visible-contexts)
+        append (remove-if-not (lambda (fact) (and (core-relation-p fact) (core-users-fact-p fact)))
+                              (cdr (facts1 place)))))
+
+;;; Maxima's data base while we compute
+
+(defun core-learn-signs (signs)
+  "Tells Maxima the SIGNS of single names."
+  (loop for (item . sign) in signs
+        for relation = (case sign
+                         ($pos (list '(mgreaterp) item 0)) ($neg (list '(mgreaterp) 0 item))
+                         ($pz (list '(mgeqp) item 0)) ($nz (list '(mgeqp) 0 item))
+                         ($pn (list '($notequal) item 0)))
+        do (when (and relation (symbolp item)) (learn relation t))))
+
+(defun core-change-global (facts flag)
+  "Puts FACTS into Maxima's global context, or takes them out where FLAG is nil."
+  (when facts
+    (let ((context '$global) ($context '$global))
+      (dolist (fact facts)
+        (cond ((not (eq (caar fact) '$kind)) (learn fact flag))
+              (flag (kind (cadr fact) (caddr fact)))
+              (t (unkind (cadr fact) (caddr fact)))))))
+  (contextmark))
+
+(defun core-call-in-context (place function)
+  "Calls FUNCTION in the empty context PLACE, no other one being active."
+  (let ((users $context) (active (cdr $activecontexts)))
+    (putprop place '($global) 'subc)
+    (unwind-protect
+         (let (($contexts (list* (car $contexts) place (cdr $contexts)))
+               ($activecontexts (list '(mlist))))
+           (setq $context place context place)
+           (contextmark)
+           (mapc #'cunmrk active)
+           (funcall function))
+      (setq $context users context users)
+      (contextmark)
+      (mapc #'cmark active)
+      (killc place)
+      (setq $context users context users)
+      (contextmark))))
+
+(defun core-without-session-facts (function)
+  "Calls FUNCTION while Maxima's data base knows nothing that the user told it."
+  (let ((globals (remove-if-not #'core-users-fact-p (cdr (facts1 '$global)))))
+    (core-change-global globals nil)
+    (unwind-protect (core-call-in-context (gensym "$CONTEXT") function)
+      (core-change-global (reverse globals) t))))
+
+(defun core-contradicted (facts session)
+  "The first of the archive's FACTS that contradicts what the SESSION assumes, or nil."
+  (when (and facts session (eq (core-judged (append facts session)) :contradiction))
+    (or (find-if (lambda (fact) (eq (core-judged (cons fact session)) :contradiction)) facts)
+        (car facts))))
+
+(defun core-usable-facts (facts)
+  "FACTS, the archive's, with those of the session unless these contradict them."
+  (let* ((session (core-session-facts))
+         (contradicted (core-contradicted facts session)))
+    (when (eq (core-judged facts) :contradiction)
+      (core-error "what is assumed of the parameters contradicts itself: ~{~a~^, ~}"
+                  (mapcar (lambda (fact) (core-words (list fact))) facts)))
+    (when contradicted
+      (core-warn "the archive says ~a; what you assumed in the session contradicts it and ~
+                  is not used here"
+                 (core-words (list contradicted))))
+    (if contradicted facts (append facts session))))
+
+(defun core-with-facts (facts function)
+  "Calls FUNCTION while FACTS and the session's facts hold, and only their signs of single names
+stand in Maxima's data base."
+  (let* ((*core-facts* (core-usable-facts facts))
+         (signs (core-judged *core-facts*)))
+    (core-without-session-facts
+     (lambda ()
+       (if (eq signs :contradiction)
+           (core-error "what is assumed contradicts itself: ~a"
+                       (core-words (list (cons '(mlist) *core-facts*))))
+           (core-learn-signs signs))
+       (funcall function)))))
