@@ -27,9 +27,11 @@
 (defun signs-point () (loop for name in *signs-names* collect (cons name (signs-number))))
 
 (defun signs-near (point)
-  "A point beside POINT in some of its coordinates."
+  "A point beside POINT in some of its coordinates; often on the border of a fact."
   (loop for (name . value) in point
-        collect (cons name (case (signs-random 5)
+        collect (cons name (case (signs-random 8)
+                             (3 (signs-number))
+                             (4 (cdr (signs-choice point)))
                              (0 (+ value (/ (signs-number) (1+ (signs-random 40)))))
                              (1 (+ value (signs-number)))
                              (2 (* value (1+ (signs-random 9))))
@@ -93,6 +95,11 @@
       (mgreaterp (plusp value)) (mgeqp (>= value 0))
       (mlessp (minusp value)) (mleqp (<= value 0)))))
 
+(defun signs-points (facts point count)
+  "POINT, and those of COUNT points beside it at which the FACTS hold."
+  (cons point (remove-if-not (lambda (p) (every (lambda (f) (signs-holds-p f p)) facts))
+                             (loop repeat count collect (signs-near point)))))
+
 ;;; Expressions to be judged
 
 (defun signs-polynomial (depth)
@@ -147,9 +154,7 @@
   (let* ((point (signs-point))
          (facts (remove nil (loop repeat (signs-random 6)
                                   collect (catch 'no-value (signs-fact point)))))
-         (points (cons point (remove-if-not
-                              (lambda (p) (every (lambda (f) (signs-holds-p f p)) facts))
-                              (loop repeat 12 collect (signs-near point))))))
+         (points (signs-points facts point 12)))
     (core-guarded facts
                   (lambda ()
                     (or (signs-wrong-sign facts points) (signs-wrong-simplified facts points))))))
@@ -176,12 +181,16 @@
   (cons '(mlist simp) (loop for (name . value) in point
                             collect (list '(mequal simp) name (algebra-maxima-number value)))))
 
-(defun $fuzz_signs (count seed)
-  "The failures among COUNT random cases from SEED."
+(defun signs-failures (count seed function)
+  "What FUNCTION finds wrong in COUNT cases from SEED; errors count."
   (setq *signs-state* (+ 1 (* 7919 seed)))
   (cons '(mlist simp)
         (loop repeat count
               for state = *signs-state*
-              for wrong = (multiple-value-bind (wrong text) (core-caught #'fuzz-signs-case)
+              for wrong = (multiple-value-bind (wrong text) (core-caught function)
                             (if text (list '(mlist simp) text state) wrong))
               when wrong collect wrong)))
+
+(defun $fuzz_signs (count seed)
+  "The failures among COUNT random cases from SEED."
+  (signs-failures count seed #'fuzz-signs-case))

@@ -102,81 +102,140 @@ nil where there is none."
         (high (1- high))
         (t 0)))
 
-;;; Facts put in
+;;; Facts put in. The polynomial, the facts as (table . sign), and the signs of all variables, the
+;;; last of which stand for the differences d, go down together.
 
-(defvar *algebra-shifts-left* 0 "How many more facts may be put in.")
+(defparameter *algebra-shift-depth* 5 "How many facts may be put in, one after the other.")
+(defvar *algebra-shifts-left* 0 "How many more facts may be put in at all.")
+
+(defun algebra-moderate-p (e degree)
+  "Whether the expanded E is of DEGREE at most in each name and kernel."
+  (loop for term in (algebra-summands e)
+        always (loop for factor in (algebra-factors-of term)
+                     always (or (eq (algebra-base-of factor) factor)
+                                (<= (caddr factor) degree)))))
 
 (defun algebra-shifted-sign (e)
-  (let ((gaps (algebra-linear-gaps *algebra-knowledge*))
-        (*algebra-shifts-left* (floor 16000 (+ 100 (algebra-size e)))))
-    (loop for depth from 1 to (min 5 (length gaps))
-          for sign = (algebra-shift e gaps depth)
+  (if (algebra-moderate-p e 30) (algebra-sign-by-shifts e) '$unknown))
+
+(defun algebra-sign-by-shifts (e)
+  (let* ((gaps (algebra-related-gaps e (algebra-linear-gaps *algebra-knowledge*)))
+         (kernels (append (algebra-kernels-of (cons e (mapcar #'car gaps)))
+                          (loop repeat *algebra-shift-depth* collect 'difference)))
+         (signs (mapcar (lambda (kernel) (if (eq kernel 'difference)
+                                             '$unknown
+                                             (algebra-part-sign kernel)))
+                        kernels))
+         (table (algebra-table-of e kernels))
+         (tables (loop for (gap . sign) in gaps
+                       collect (cons (algebra-table-of gap kernels) sign)))
+         (places (algebra-shift-places kernels))
+         (*algebra-shifts-left* (floor 10000 (+ 100 (* 10 (hash-table-count table))))))
+    (loop for depth from 1 to (min *algebra-shift-depth* (length gaps))
+          for sign = (algebra-shift table tables signs places depth)
           unless (eq sign '$unknown) return sign
           finally (return '$unknown))))
 
 (defun algebra-linear-gaps (knowledge)
   "Sums of known sign, turned so that it is pos, pz or zero."
   (loop for (e . sign) in (knowledge-sums knowledge)
-        append (case sign
+        append (case (and (algebra-moderate-p e 6) sign)
                  (($pos $pz $zero) (list (cons e sign)))
                  (($neg $nz) (list (cons (algebra-turned e) (algebra-opposite-sign sign)))))))
 
-(defun algebra-shift (e gaps depth)
-  "The sign of E with DEPTH of the GAPS put in at most."
-  (let ((sign (algebra-common-sign (algebra-summands e) #'algebra-part-sign)))
-    (if (or (not (eq sign '$unknown)) (zerop depth) (minusp (decf *algebra-shifts-left*)))
+(defun algebra-shift-places (kernels)
+  "Places of the names that do not stand inside of other kernels."
+  (loop for kernel in kernels for place from 0
+        when (and (symbolp kernel) (not (eq kernel 'difference))
+                  (every (lambda (other) (or (symbolp other) (free other kernel))) kernels))
+          collect place))
+
+(defun algebra-table-sign (table signs)
+  "The sign of terms that agree, else unknown."
+  (let ((sum '$zero))
+    (loop for monomial being the hash-keys of table using (hash-value number)
+          do (setq sum (algebra-plus-sign sum (algebra-monomial-sign number monomial signs)))
+          until (eq sum '$unknown))
+    sum))
+
+(defun algebra-monomial-sign (number monomial signs)
+  (let ((product (if (plusp number) '$pos '$neg)))
+    (loop for sign in signs for place from 0
+          for power = (algebra-exponent monomial place)
+          do (setq product
+                   (algebra-times-sign product
+                                       (cond ((zerop power) '$pos)
+                                             ((oddp power) sign)
+                                             (t (algebra-even-sign sign))))))
+    product))
+
+(defun algebra-even-sign (sign)
+  "The sign of the square of what has SIGN; unknown may be no real number."
+  (case sign
+    (($pos $neg $pn) '$pos)
+    (($pz $nz) '$pz)
+    (t sign)))
+
+(defun algebra-shift (table gaps signs places depth)
+  "The sign of TABLE with DEPTH of the GAPS put in at most."
+  (let ((sign (algebra-table-sign table signs)))
+    (if (or (not (eq sign '$unknown)) (zerop depth) (minusp (decf *algebra-shifts-left*))
+            (> (hash-table-count table) 500))
         sign
         (loop for gap in gaps
-              do (dolist (x (algebra-linear-names (car gap) e))
-                   (let ((sign (algebra-shift-by e x gap (remove gap gaps :test #'eq) depth)))
-                     (unless (eq sign '$unknown) (return-from algebra-shift sign))))
+              do (dolist (place places)
+                   (let ((slope (algebra-slope table (car gap) place signs)))
+                     (when slope
+                       (let ((sign (algebra-shift-by table place gap slope
+                                                     (remove gap gaps :test #'eq)
+                                                     signs places depth)))
+                         (unless (eq sign '$unknown) (return-from algebra-shift sign))))))
               finally (return '$unknown)))))
 
-(defun algebra-linear-names (gap e)
-  "Names in which E is a polynomial and GAP linear, with a coefficient of known sign."
-  (loop for x in (algebra-names-of gap)
-        when (and (symbolp x) (among x e) (algebra-polynomial-in-p e x)
-                  (algebra-polynomial-in-p gap x) (eql 1 ($hipow gap x))
-                  (member (algebra-part-sign ($coeff gap x 1)) '($pos $neg)))
-          collect x))
+(defun algebra-slope (table gap place signs)
+  "The coefficient, of known sign, of the variable at PLACE in which GAP is linear and which occurs
+in TABLE; else nil."
+  (and (eql 1 (algebra-table-degree-in gap place))
+       (<= 1 (algebra-table-degree-in table place)
+           (/ (- *algebra-table-degree* (algebra-table-degree table))
+              (algebra-table-degree gap)))
+       (let ((slope (algebra-table-coefficient gap place 1)))
+         (and (member (algebra-table-sign slope signs) '($pos $neg)) slope))))
 
-(defun algebra-shift-by (e x gap others depth)
-  "The sign of E with x = (d - u)/c from the GAP c*x + u = d."
-  (let* ((c ($coeff (car gap) x 1))
-         (u ($coeff (car gap) x 0))
-         (d (if (eq (cdr gap) '$zero) 0 (gensym)))
-         (*algebra-knowledge* (copy-algebra-knowledge *algebra-knowledge*)))
-    (unless (eql d 0)
-      (push (cons d (cdr gap)) (knowledge-items *algebra-knowledge*)))
-    (flet ((put-in (polynomial) (algebra-linear-put-in polynomial x c (sub d u))))
-      (let ((sign (algebra-shift (put-in e)
-                                 (loop for (other . sign) in others
-                                       collect (if (and (algebra-polynomial-in-p other x)
-                                                        (or (evenp ($hipow other x))
-                                                            (eq (algebra-part-sign c) '$pos)))
-                                                   (cons (put-in other) sign)
-                                                   (cons other sign)))
-                                 (1- depth))))
-        (if (and (oddp ($hipow e x)) (eq (algebra-part-sign c) '$neg))
-            (algebra-opposite-sign sign)
-            sign)))))
+(defun algebra-shift-by (table place gap slope others signs places depth)
+  "The sign of TABLE with x = (d - u)/c from the GAP c*x + u = d, c the SLOPE."
+  (let* ((slot (- (length signs) depth))
+         (value (algebra-table-sum (algebra-difference gap slot)
+                                   (algebra-table-coefficient (car gap) place 0) -1))
+         (turned (eq (algebra-table-sign slope signs) '$neg))
+         (signs (substitute-if (cdr gap) (constantly t) signs :start slot :end (1+ slot))))
+    (flet ((put-in (table sign)
+             (cons (algebra-table-put-in table place value slope)
+                   (if (and turned (oddp (algebra-table-degree-in table place)))
+                       (algebra-opposite-sign sign)
+                       sign))))
+      (destructuring-bind (put . sense) (put-in table '$pos)
+        (let ((sign (algebra-shift put
+                                   (loop for (other . sign) in others collect (put-in other sign))
+                                   signs (remove place places) (1- depth))))
+          (if (eq sense '$pos) sign (algebra-opposite-sign sign)))))))
 
-(defun algebra-linear-put-in (e x c value)
-  "c^n times E of degree n in X, with VALUE/c for X."
-  (let* ((powers (algebra-powers-in e x)) (n (1- (length powers))))
-    ($expand (addn (loop for a in powers for k from 0
-                         collect (mul a (power value k) (power c (- n k))))
-                   nil))))
+(defun algebra-difference (gap slot)
+  "The new variable d of the GAP as a table, none where the gap is zero."
+  (let ((table (algebra-new-table)))
+    (unless (eq (cdr gap) '$zero)
+      (setf (gethash (algebra-monomial-of slot 1) table) 1))
+    table))
 
 ;;; A proof from the facts
 
 (defun algebra-proved-sign (e)
-  (let* ((gaps (append (algebra-gaps *algebra-knowledge*) (algebra-own-gaps e)))
-         (sign (algebra-certificate e gaps)))
-    (if (eq sign '$pos)
-        sign
-        (algebra-both-signs sign (algebra-opposite-sign
-                                  (algebra-certificate (algebra-turned e) gaps))))))
+  (if (algebra-moderate-p e 8)
+      (algebra-certified-sign
+       e (append (remove-if-not (lambda (gap) (algebra-moderate-p (car gap) 8))
+                                (algebra-gaps *algebra-knowledge*))
+                 (algebra-own-gaps e)))
+      '$unknown))
 
 (defun algebra-own-gaps (e)
   "What the kernels of E bring with them: signs, and |sin x|, |cos x| <= 1."

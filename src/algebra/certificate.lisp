@@ -9,54 +9,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size" "algebra/simplex"))
+  (core-require "algebra/term_tables" "algebra/simplex"))
 
 (defparameter *algebra-certificate-size* 6000
   "Largest product of the numbers of monomials and of products for which a proof is sought.")
-
-;;; Polynomials in names and kernels as tables: list of exponents -> rational coefficient
-
-(defun algebra-kernels-of (expressions)
-  "The names and kernels in which the expanded EXPRESSIONS are polynomials with rational
-coefficients."
-  (let ((kernels '()))
-    (dolist (e expressions (nreverse kernels))
-      (dolist (term (algebra-summands e))
-        (dolist (factor (algebra-factors-of term))
-          (let ((base (algebra-base-of factor)))
-            (unless (algebra-rational-number base) (pushnew base kernels :test #'alike1))))))))
-
-(defun algebra-summands (e) (if (mplusp e) (cdr e) (list e)))
-(defun algebra-factors-of (e) (if (mtimesp e) (cdr e) (list e)))
-
-(defun algebra-base-of (factor)
-  (if (and (mexptp factor) (integerp (caddr factor)) (plusp (caddr factor)))
-      (cadr factor)
-      factor))
-
-(defun algebra-table-of (e kernels)
-  (let ((table (make-hash-table :test #'equal)))
-    (dolist (term (algebra-summands e) table)
-      (let ((coefficient 1) (exponents (make-list (length kernels) :initial-element 0)))
-        (dolist (factor (algebra-factors-of term))
-          (let ((number (algebra-rational-number factor)))
-            (if number
-                (setq coefficient (* coefficient number))
-                (incf (nth (position (algebra-base-of factor) kernels :test #'alike1) exponents)
-                      (if (eq (algebra-base-of factor) factor) 1 (caddr factor))))))
-        (incf (gethash exponents table 0) coefficient)))))
-
-(defun algebra-table-product (a b)
-  (let ((table (make-hash-table :test #'equal)))
-    (maphash (lambda (m x)
-               (maphash (lambda (n y) (incf (gethash (mapcar #'+ m n) table 0) (* x y))) b))
-             a)
-    table))
-
-(defun algebra-table-degree (table)
-  (reduce #'max (loop for exponents being the hash-keys of table
-                      collect (reduce #'+ exponents))
-          :initial-value 0))
 
 ;;; Generators: (table . strict)
 
@@ -75,17 +31,12 @@ of kernels."
                                (cons (algebra-table-of (algebra-turned e) kernels) nil)))
                   (($pn $unknown) '())))))
 
-(defun algebra-turned (e) ($expand (mul -1 e)))
-
 (defun algebra-square-generators (kernels known)
   "Squares of those names among the KERNELS whose sign is not KNOWN, not strict."
   (loop for kernel in kernels for place from 0
         unless (or (not (symbolp kernel)) (member kernel known :test #'eq))
-          collect (let ((table (make-hash-table :test #'equal)))
-                    (setf (gethash (loop for k from 0 below (length kernels)
-                                         collect (if (= k place) 2 0))
-                                   table)
-                          1)
+          collect (let ((table (algebra-new-table)))
+                    (setf (gethash (algebra-monomial-of place 2) table) 1)
                     (cons table nil))))
 
 (defun algebra-next-products (products generators degree)
@@ -102,17 +53,20 @@ of kernels."
     (dolist (g generators (nreverse distinct))
       (let ((key (sort (loop for m being the hash-keys of (car g) using (hash-value x)
                              unless (zerop x) collect (cons m x))
-                       #'algebra-monomial-less)))
+                       #'< :key #'car)))
         (unless (or (null key) (gethash (cons key (cdr g)) seen))
           (setf (gethash (cons key (cdr g)) seen) t)
           (push g distinct))))))
 
-(defun algebra-monomial-less (a b)
-  (loop for x in (car a) for y in (car b)
-        do (cond ((< x y) (return t)) ((> x y) (return nil)))
-        finally (return (< (cdr a) (cdr b)))))
-
 ;;; The proof
+
+(defun algebra-certified-sign (e gaps)
+  "The sign of the expanded E that is proved from the GAPS, or unknown."
+  (let ((sign (algebra-certificate e gaps)))
+    (if (eq sign '$pos)
+        sign
+        (algebra-both-signs sign (algebra-opposite-sign
+                                  (algebra-certificate (algebra-turned e) gaps))))))
 
 (defun algebra-certificate (e gaps)
   "pos or pz where that is proved of the expanded polynomial E from the GAPS, else unknown."
@@ -165,7 +119,7 @@ of kernels."
                 (t '$pos))))))
 
 (defun algebra-monomials-of (tables)
-  (let ((seen (make-hash-table :test #'equal)) (monomials '()))
+  (let ((seen (algebra-new-table)) (monomials '()))
     (dolist (table tables (nreverse monomials))
       (loop for m being the hash-keys of table
             unless (gethash m seen)

@@ -31,8 +31,18 @@
 
 (defun $algebra_contradictory (conditions)
   "Whether CONDITIONS, a list, are proved to contradict the facts or each other."
-  (let ((*core-facts* (append (core-plain-relations (cdr conditions)) (core-facts))))
-    (and (knowledge-contradiction (algebra-what-is-known)) t)))
+  (let ((relations (core-plain-relations (cdr conditions))))
+    (and (or (let ((*core-facts* (append relations (core-facts))))
+               (knowledge-contradiction (algebra-what-is-known)))
+             (some (lambda (relation) (algebra-refuted-p relation (remove relation relations)))
+                   relations))
+         t)))
+
+(defun algebra-refuted-p (relation others)
+  "Whether RELATION is proved to fail where the OTHERS and the facts hold."
+  (multiple-value-bind (e sign) (core-fact-difference relation)
+    (let ((*core-facts* (append others (core-facts))))
+      (algebra-opposed-p sign ($algebra_sign e)))))
 
 (defun algebra-sign (e)
   (if ($constantp e)
