@@ -132,6 +132,16 @@ Returns their names."
   (let ((names (gethash part *core-loaded*)))
     (if (consp names) (every (lambda (name) (mget name 'mexpr)) names) names)))
 
+(defun core-loaded-unwatched (part source)
+  "Loads SOURCE, which the watch of a call, where it is loaded itself, leaves alone."
+  (flet ((loaded ()
+           (let ((lisp (core-existing-file (concatenate 'string source "lisp"))))
+             (or (if lisp
+                     (core-load-lisp part lisp)
+                     (core-load-mac (concatenate 'string source "mac")))
+                 t))))
+    (if (fboundp 'core-unhurried) (funcall 'core-unhurried #'loaded) (loaded))))
+
 (defun core-require (&rest parts)
   "Loads those of PARTS that are not there."
   (dolist (part parts)
@@ -139,17 +149,13 @@ Returns their names."
       (setf (gethash part *core-loaded*) t)
       (let ((source (format nil "~asrc/~a." *core-root* part)) (done nil))
         (unwind-protect
-             (let ((lisp (core-existing-file (concatenate 'string source "lisp"))))
-               (setf (gethash part *core-loaded*)
-                     (or (if lisp
-                             (core-load-lisp part lisp)
-                             (core-load-mac (concatenate 'string source "mac")))
-                         t)
-                     done t))
+             (setf (gethash part *core-loaded*) (core-loaded-unwatched part source)
+                   done t)
           (unless done (remhash part *core-loaded*)))))))
 
 (defun $core_require (&rest parts)
   (apply #'core-require parts)
   '$done)
 
-(core-require "core/messages" "core/register" "core/guard" "core/faces")
+(core-require "core/messages" "core/register" "core/guard" "core/watch" "core/faces")
+#+sbcl (core-require "core/alarm")

@@ -65,16 +65,16 @@ last `piece' of an expression."
 (defun core-without-questions (function)
   "Calls FUNCTION; where Maxima would ask the person something, an error is signalled instead."
   (let ((asking (symbol-function 'retrieve)))
-    (setf (symbol-function 'retrieve) #'core-refuse-question)
-    (unwind-protect (funcall function)
+    (unwind-protect (progn (setf (symbol-function 'retrieve) #'core-refuse-question)
+                           (funcall function))
       (setf (symbol-function 'retrieve) asking))))
 
 (defun core-without-dependencies (function)
   "Calls FUNCTION while no symbol depends on another."
   (let ((saved (loop for entry in (cdr $dependencies)
                      collect (cons (caar entry) (mget (caar entry) 'depends)))))
-    (loop for (name) in saved do (mremprop name 'depends))
-    (unwind-protect (funcall function)
+    (unwind-protect (progn (loop for (name) in saved do (mremprop name 'depends))
+                           (funcall function))
       (loop for (name . list) in saved do (mputprop name list 'depends)))))
 
 (defun core-contradicted (facts)
@@ -121,9 +121,10 @@ the user's are left out."
                                           (symbol-value l)))
                           lists)
                   (lambda ()
-                    (loop for (name . value) in *core-kept-values* do (set name value))
                     (unwind-protect
-                         (core-without-questions (lambda () (core-with-facts facts function)))
+                         (progn
+                           (loop for (name . value) in *core-kept-values* do (set name value))
+                           (core-without-questions (lambda () (core-with-facts facts function))))
                       (core-hide-new-values users))))))
           (multiple-value-bind (names defaults) (core-default-options)
             (core-with-values names defaults
