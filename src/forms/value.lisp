@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/exchange" "forms/fixed" "forms/sample"))
+  (core-require "forms/exchange" "forms/fixed" "forms/sample" "forms/noun_value"))
 
 (defstruct forms-point
   (names (make-hash-table :test #'eq)) ; name -> value
@@ -42,10 +42,6 @@
 (defun forms-rational (e)
   (cond ((rationalp e) e)
         ((ratnump e) (/ (cadr e) (caddr e)))))
-
-(defun forms-no-value (e)
-  (declare (ignore e))
-  (throw 'forms-no-value nil))
 
 (defun forms-fixed-value (e point)
   (cond ((forms-rational e) (forms-fixed (forms-rational e)))
@@ -83,12 +79,9 @@
 
 (defun forms-operation-value (e point)
   (flet ((parts () (mapcar (lambda (part) (forms-fixed-value part point)) (cdr e))))
-    (cond ((forms-bound-noun-p e) (forms-fixed-value ($forms_closed e) point))
+    (cond ((forms-bound-noun-p e) (forms-noun-value e point))
           ((forms-open-function-p (caar e)) (forms-open-value (caar e) (parts)))
           (t (forms-function-value e (parts) point)))))
-
-(defun forms-bound-noun-p (e)
-  (member (caar e) '(%derivative %integrate %at)))
 
 (defun forms-open-value (name arguments)
   "sum c_k x_k + sum d_k x_k x_(k+1) as in forms-sample-polynomial."
@@ -137,6 +130,7 @@
     (if (eq operator '%sin) sine cosine)))
 
 (defun forms-long-float-value (e arguments)
+  (forms-check-sizes (caar e) arguments)
   (let* (($fpprec 160) (fpprec (+ 2 (integer-length (expt 10 $fpprec))))
          (numbers (mapcar (lambda (x) ($bfloat (div x (ash 1 forms-digits)))) arguments))
          (found ($bfloat (if arguments
@@ -145,6 +139,19 @@
     (if ($bfloatp found)
         (forms-fixed (forms-long-float-ratio found))
         (forms-no-value e))))
+
+(defun forms-check-sizes (operator arguments)
+  "No value where Maxima's long floats would be too long, or would take too long."
+  (flet ((digits (x) (- (integer-length x) forms-digits)))
+    (let ((most (reduce #'max (mapcar #'digits arguments) :initial-value 0)))
+      (when (or (> most 200)
+                (and (eq operator 'mexpt)
+                     (> (+ (digits (second arguments))
+                           (integer-length (abs (digits (first arguments)))))
+                        (integer-length forms-most-digits)))
+                (and (member operator '(%sinh %cosh %tanh %sech %csch %coth mfactorial %gamma))
+                     (> most 13)))
+        (forms-no-value operator)))))
 
 (defun forms-long-float-ratio (x)
   ;; ((bigfloat .. precision) mantissa exponent) is mantissa*2^(exponent - precision)
