@@ -18,7 +18,7 @@ only.")
     $features $% $%% $_ $__ $infolists $prompt $linel $stdin $stdout $transcript $debugmode
     $showtime $lasttime $plot_options $gnuplot_command $gnuplot_view_args $gnuplot_term
     $gnuplot_out_file $random $version $build_info $ttyoff $gensumnum $testsuite_files
-    $share_testsuite_files)
+    $share_testsuite_files $factor_max_degree_print_warning)
   "Variables that are not options of a computation, or whose change must last.")
 
 (defun core-with-values (names values function)
@@ -42,7 +42,8 @@ last `piece' of an expression."
                                                         '($labels $contexts $activecontexts)))))
 
 (defun core-default-options ()
-  "Two lists: option variables that differ from Maxima's defaults, and the defaults."
+  "Two lists: option variables that differ from Maxima's defaults, and the defaults; and one whose
+default is to print a line."
   (let ((names '()) (defaults '()) (kept (append *core-kept-variables* (cdr $infolists))))
     (maphash (lambda (name default)
                (when (and (char= (char (string name) 0) #\$) (boundp name)
@@ -53,7 +54,7 @@ last `piece' of an expression."
                  (push name names)
                  (push default defaults)))
              *variable-initial-values*)
-    (values names defaults)))
+    (values (cons '$factor_max_degree_print_warning names) (cons nil defaults))))
 
 (defun core-refuse-question (message &rest ignored)
   (declare (ignore ignored))
