@@ -29,13 +29,17 @@
   "A file of this process."
   (format nil "~a/dynarch-watch-~d.txt" $maxima_tempdir (core-process-id)))
 
-(defun fuzz-watch-copy (example)
-  "The bytes of EXAMPLE, copied into the file of this process."
+(defun fuzz-watch-copied (example path)
+  "The bytes of EXAMPLE, copied into the file PATH."
   (let ((bytes (archive-file-bytes ($core_path (format nil "examples/~a.txt" example)))))
-    (with-open-file (out (core-pathname (fuzz-watch-path)) :direction :output
+    (with-open-file (out (core-pathname path) :direction :output
                          :element-type '(unsigned-byte 8) :if-exists :supersede)
       (write-sequence bytes out))
     bytes))
+
+(defun fuzz-watch-said (function)
+  "What is written to the terminal while the Maxima FUNCTION runs."
+  (with-output-to-string (*standard-output*) (mfuncall function)))
 
 (defun fuzz-watch-call (function &optional limit)
   "Calls FUNCTION on the file of this process; what it says goes nowhere."
@@ -52,7 +56,7 @@
   "The bytes that the archive has after a call without a stop."
   (or (gethash (cons function example) *fuzz-watch-whole*)
       (progn
-        (fuzz-watch-copy example)
+        (fuzz-watch-copied example (fuzz-watch-path))
         (fuzz-watch-call function)
         (setf (gethash (cons function example) *fuzz-watch-whole*)
               (archive-file-bytes (fuzz-watch-path))))))
@@ -66,7 +70,7 @@
 (defun fuzz-watch-trouble (function example limit)
   "What a stop after LIMIT milliseconds leaves behind, or nil."
   (let* ((whole (fuzz-watch-whole function example))
-         (old (fuzz-watch-copy example))
+         (old (fuzz-watch-copied example (fuzz-watch-path)))
          (before ($snapshot)) (lists (list bindlist mspeclist loclist)))
     (fuzz-watch-call function limit)
     (let ((new (archive-file-bytes (fuzz-watch-path)))

@@ -39,9 +39,11 @@
 
 ;;; Integrals
 
-(defparameter *forms-node-step* 1/16)
-(defparameter *forms-node-count* 70 "Nodes on each side at this step: what is left out is 10^-48.")
-(defconstant forms-integral-digits 130 "Binary digits to which both sums have to agree.")
+(defparameter *forms-node-step* 31/512
+  "About 1/16; no multiple of its half is 1, at which Maxima's long exponential is off by 2^-53.")
+(defparameter *forms-node-count* 72 "Nodes on each side at this step: what is left out is 10^-48.")
+(defconstant forms-integral-digits 75
+  "Binary digits to which both sums have to agree: the finer one then has twice as many.")
 (defvar *forms-nodes* nil "Nodes and weights in turn at half the step, ((1 - tanh) . weight), ..")
 
 (defun forms-bigfloat-fixed (e)
@@ -54,7 +56,7 @@
          (cosh (take '(%cosh) ($bfloat v))))
     (cons (forms-bigfloat-fixed (div 2 (add 1 (power '$%e ($bfloat (mul 2 v))))))
           (forms-bigfloat-fixed (div (mul '((rat simp) 1 2) '$%pi (take '(%cosh) ($bfloat u)))
-                                     (power cosh 2))))))
+                                     (mul cosh cosh))))))
 
 (defun forms-nodes ()
   "The nodes for k = 0, 1, .. at half the step."
@@ -62,7 +64,10 @@
       (setq *forms-nodes*
             (let* (($fpprec 160) (fpprec (+ 2 (integer-length (expt 10 160)))))
               (loop for k from 0 to (* 2 *forms-node-count*)
-                    collect (forms-node (div k (/ 2 *forms-node-step*))))))))
+                    collect (forms-node (forms-maxima-ratio (* k (/ *forms-node-step* 2)))))))))
+
+(defun forms-maxima-ratio (x)
+  (div (numerator x) (denominator x)))
 
 (defun forms-integral-value (e point)
   (destructuring-bind (body variable &rest limits) (cdr ($forms_closed e))
