@@ -41,7 +41,9 @@
 
 (defparameter *forms-node-step* 31/512
   "About 1/16; no multiple of its half is 1, at which Maxima's long exponential is off by 2^-53.")
-(defparameter *forms-node-count* 72 "Nodes on each side at this step: what is left out is 10^-48.")
+(defparameter *forms-node-count* 84
+  "Nodes on each side at this step: the last ones are 10^-110 from the ends.")
+(defconstant forms-tail-digits 160 "Binary digits behind which the last terms have to lie.")
 (defconstant forms-integral-digits 75
   "Binary digits to which both sums have to agree: the finer one then has twice as many.")
 (defvar *forms-nodes* nil "Nodes and weights in turn at half the step, ((1 - tanh) . weight), ..")
@@ -78,7 +80,7 @@
                           point)))
 
 (defun forms-definite-value (body variable a b point)
-  (let ((half (ash (- b a) -1)) (whole 0) (fine 0))
+  (let ((half (ash (- b a) -1)) (whole 0) (fine 0) (last 0))
     (flet ((value (s)
              (let ((moved (forms-moved-point point)))
                (forms-set-place variable s moved)
@@ -91,7 +93,9 @@
                                    (value (+ a half))
                                    (+ (value (+ a offset)) (value (- b offset)))))
             do (incf fine term)
+               (setq last term)
                (when (evenp k) (incf whole term))))
+    (when (> (integer-length last) (- forms-digits forms-tail-digits)) (forms-no-value last))
     (forms-agreed (forms-fixed-times half (forms-times-step whole *forms-node-step*))
                   (forms-fixed-times half (forms-times-step fine (/ *forms-node-step* 2))))))
 

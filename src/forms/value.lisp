@@ -131,14 +131,18 @@
 
 (defun forms-long-float-value (e arguments)
   (forms-check-sizes (caar e) arguments)
-  (let* (($fpprec 160) (fpprec (+ 2 (integer-length (expt 10 $fpprec))))
-         (numbers (mapcar (lambda (x) ($bfloat (div x (ash 1 forms-digits)))) arguments))
-         (found ($bfloat (if arguments
-                             (simplifya (cons (list (caar e)) numbers) nil)
-                             (cadr e)))))
+  (let ((found (car (core-attempt (lambda () (forms-long-float e arguments))))))
     (if ($bfloatp found)
         (forms-fixed (forms-long-float-ratio found))
         (forms-no-value e))))
+
+(defun forms-long-float (e arguments)
+  "Maxima's long float of the function of E at ARGUMENTS, of the constant E without."
+  (let* (($fpprec 160) (fpprec (+ 2 (integer-length (expt 10 $fpprec))))
+         (numbers (mapcar (lambda (x) ($bfloat (div x (ash 1 forms-digits)))) arguments)))
+    ($bfloat (if arguments
+                 (simplifya (cons (list (caar e)) numbers) nil)
+                 (cadr e)))))
 
 (defun forms-check-sizes (operator arguments)
   "No value where Maxima's long floats would be too long, or would take too long."
