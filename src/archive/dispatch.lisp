@@ -20,7 +20,7 @@
 
 (defun archive-in-time (name arguments)
   "The value within the call's limit of time; the dialog, which waits for the person, has none."
-  (flet ((answer () (archive-answered name arguments)))
+  (flet ((answer () (archive-value-or-program name arguments)))
     (if (archive-asks-p name arguments)
         (answer)
         (archive-watched arguments #'answer))))
@@ -53,7 +53,7 @@
           ((zerop1 limit) nil)
           (t (core-time limit)))))
 
-(defun archive-answered (name arguments)
+(defun archive-value-or-program (name arguments)
   (multiple-value-bind (value text) (archive-tried name arguments)
     (when (and text *core-too-large* (archive-program-serves-p name arguments))
       (multiple-value-setq (value text) (archive-program-instead name arguments text)))

@@ -10,6 +10,7 @@
 (defvar *core-loaded* (make-hash-table :test #'equal)
   "Part -> names of the Maxima functions it defined, or t for Lisp.")
 (defvar *core-room-keys* (make-hash-table :test #'equal) "Room -> digest of its Lisp sources.")
+(defvar *core-loading* #'funcall "Calls a function that loads a part: the watch waits for it.")
 (defvar *core-archive* nil "The archive a call works on, while it runs.")
 
 (setq *core-root*
@@ -133,14 +134,14 @@ Returns their names."
     (if (consp names) (every (lambda (name) (mget name 'mexpr)) names) names)))
 
 (defun core-loaded-unwatched (part source)
-  "Loads SOURCE, which the watch of a call, where it is loaded itself, leaves alone."
+  "Loads SOURCE; a call that needs it is not stopped meanwhile."
   (flet ((loaded ()
            (let ((lisp (core-existing-file (concatenate 'string source "lisp"))))
              (or (if lisp
                      (core-load-lisp part lisp)
                      (core-load-mac (concatenate 'string source "mac")))
                  t))))
-    (if (fboundp 'core-unhurried) (funcall 'core-unhurried #'loaded) (loaded))))
+    (funcall *core-loading* #'loaded)))
 
 (defun core-require (&rest parts)
   "Loads those of PARTS that are not there."

@@ -58,15 +58,6 @@
       (push text *core-warnings*)
       (core-note "warning: ~a" text))))
 
-(defun core-progress (control &rest arguments)
-  "Tells the watch what is being done: it stands in the lines of progress, one every two seconds."
-  (setq *core-doing* (apply #'format nil control arguments))
-  (core-watch))
-
-(defun $core_progress (&rest items)
-  (core-progress "~a" (core-words items))
-  '$done)
-
 (defun $core_error (&rest items) (core-signal (core-words items)))
 
 (defun core-section-name (section) (if (stringp section) section (core-words (list section))))

@@ -55,6 +55,8 @@
     (unwind-protect (let ((*core-busy* t)) (funcall function))
       (core-postpone (- (get-internal-real-time) began)))))
 
+(setq *core-loading* #'core-unhurried)
+
 ;;; The sentence of a stop
 
 (defun core-what-is-cheaper ()
@@ -95,6 +97,15 @@
 (defun core-watch ()
   "A look at the clock; called at guards, where the work may stop."
   (core-look (constantly t) (constantly t)))
+
+(defun core-progress (control &rest arguments)
+  "Tells the watch what is being done: it stands in the lines of progress, one every two seconds."
+  (setq *core-doing* (apply #'format nil control arguments))
+  (core-watch))
+
+(defun $core_progress (&rest items)
+  (core-progress "~a" (core-words items))
+  '$done)
 
 ;;; Work with a deadline. What a stop leaves behind is put in order here: Maxima's bindings, and
 ;;; contexts that were made but not yet guarded.

@@ -9,10 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/exchange" "forms/fixed" "forms/sample"))
-
-(defun forms-bound-noun-p (e)
-  (member (caar e) '(%derivative %integrate %at)))
+  (core-require "forms/value"))
 
 (defun forms-noun-value (e point)
   (case (caar e)
@@ -22,6 +19,8 @@
                 (forms-fixed-value closed point))
                ((eq (caar e) '%derivative) (forms-difference-value closed point))
                (t (forms-no-value e)))))))
+
+(setq *forms-noun-value* #'forms-noun-value)
 
 ;;; Derivatives: once, or twice, with respect to one name
 
@@ -50,7 +49,7 @@
 
 (defun forms-bigfloat-fixed (e)
   "A constant expression in units of 2^-512."
-  (forms-fixed (let ((x ($bfloat e))) (* (cadr x) (expt 2 (- (caddr x) (car (last (car x)))))))))
+  (forms-fixed (forms-long-float-ratio ($bfloat e))))
 
 (defun forms-node (u)
   "(1 - tanh(v) . weight), v = pi/2 sinh(u): 1 - tanh(v) = 2/(1 + exp(2v))."

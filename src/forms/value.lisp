@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/exchange" "forms/fixed" "forms/sample" "forms/noun_value"))
+  (core-require "forms/exchange" "forms/fixed" "forms/sample"))
 
 (defstruct forms-point
   (names (make-hash-table :test #'eq)) ; name -> value
@@ -77,9 +77,14 @@
               (t (forms-fixed-inverse power))))
       (forms-function-value '((mexpt)) (list base (forms-fixed-value exponent point)) point)))
 
+(defvar *forms-noun-value* nil "The value of a noun at a point, see noun_value.lisp.")
+
+(defun forms-bound-noun-p (e)
+  (member (caar e) '(%derivative %integrate %at)))
+
 (defun forms-operation-value (e point)
   (flet ((parts () (mapcar (lambda (part) (forms-fixed-value part point)) (cdr e))))
-    (cond ((forms-bound-noun-p e) (forms-noun-value e point))
+    (cond ((forms-bound-noun-p e) (funcall *forms-noun-value* e point))
           ((forms-open-function-p (caar e)) (forms-open-value (caar e) (parts)))
           (t (forms-function-value e (parts) point)))))
 
