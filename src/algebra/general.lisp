@@ -136,18 +136,14 @@
 
 (defun algebra-factor-table (variable)
   "Variable and its powers, each made once."
-  (cons (get variable 'disrep) (make-array 4 :initial-element nil :adjustable t)))
+  (cons (get variable 'disrep) (make-hash-table)))
 
 (defun algebra-factor (table exponent)
   (destructuring-bind (base . powers) table
     (if (= exponent 1)
         base
-        (progn
-          (when (>= exponent (length powers))
-            (setf powers (adjust-array powers (* 2 (1+ exponent)) :initial-element nil)
-                  (cdr table) powers))
-          (or (aref powers exponent)
-              (setf (aref powers exponent) (list '(mexpt simp) base exponent)))))))
+        (or (gethash exponent powers)
+            (setf (gethash exponent powers) (list '(mexpt simp) base exponent))))))
 
 (defun algebra-term-expression (exponents coefficient factors)
   (let ((product (loop for table in factors

@@ -138,11 +138,17 @@
       (loop for (exponent coefficient) on (cdr p) by #'cddr
             maximize (+ exponent (algebra-total-degree coefficient)))))
 
+(defparameter *algebra-image-degree* 10000
+  "The largest degree of an image on a line, all of whose coefficients are stored.")
+
 (defun algebra-surely-coprime-p (p q)
-  "No common factor but numbers; nil if there is one or the line was unlucky."
-  (let* ((line (make-hash-table :test #'eq))
-         (u (algebra-line-image p line))
-         (v (algebra-line-image q line)))
-    (and (= (1- (length u)) (algebra-total-degree p))
-         (= (1- (length v)) (algebra-total-degree q))
-         (algebra-modular-coprime-p u v))))
+  "No common factor but numbers; nil if there is one, the degree is too high or the line was
+unlucky."
+  (let ((m (algebra-total-degree p)) (n (algebra-total-degree q)))
+    (and (<= (max m n) *algebra-image-degree*)
+         (let* ((line (make-hash-table :test #'eq))
+                (u (algebra-line-image p line))
+                (v (algebra-line-image q line)))
+           (and (= (1- (length u)) m)
+                (= (1- (length v)) n)
+                (algebra-modular-coprime-p u v))))))

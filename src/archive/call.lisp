@@ -16,7 +16,7 @@
   (new '())                                 ; steps computed, newest first
   (facts '()))
 
-(defparameter *archive-common-options* '("save" "verbose" "progress" "form" "result"))
+(defparameter *archive-common-options* '("save" "verbose" "progress" "limit" "form" "result"))
 
 (defun archive-split-arguments (arguments)
   "Two values: the leading arguments, and the options, equations at the end."
@@ -109,6 +109,7 @@ arrive as their values."
 (defparameter *archive-option-types*
   '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved"
      "matrices")
+    (:seconds "a number of seconds, 0 for no limit" "limit")
     (:form "auto, canonical, factored or program" "form")
     (:function "lagrange, routh or hamilton" "function")
     (:file "a file name in double quotes" "result"))
@@ -118,6 +119,7 @@ at where they are used.")
 (defun archive-option-fits (type value)
   (ecase type
     (:truth (member value '(nil t)))
+    (:seconds (and (mnump value) (not (mnegp value))))
     (:form (member value '($auto $canonical $factored $program)))
     (:function (member value '($lagrange $routh $hamilton)))
     (:file (stringp value))))

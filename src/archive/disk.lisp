@@ -109,7 +109,8 @@
 
 (defun archive-call-locked (name function)
   "Calls FUNCTION while no other writer of ours works in the folder of the file NAME."
-  (multiple-value-bind (handle locked) (archive-lock (archive-folder name))
+  (multiple-value-bind (handle locked)
+      (core-unhurried (lambda () (archive-lock (archive-folder name))))
     (unwind-protect (let ((*archive-locked* locked)) (funcall function))
       (archive-unlock handle))))
 
@@ -171,4 +172,4 @@ said no, else an error."
   (archive-ignore-size-limit)
   (when (and (archive-exists-p name) (not (archive-may-write-p name)))
     (core-error "it is read-only"))
-  (archive-put-file name bytes unchanged-p))
+  (core-unhurried (lambda () (archive-put-file name bytes unchanged-p))))

@@ -12,11 +12,52 @@
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
-        (*core-started* nil) (*core-progress* t) (*core-too-large* nil))
-    (multiple-value-bind (value text) (archive-tried name arguments)
-      (when (and text *core-too-large* (archive-program-serves-p name arguments))
-        (multiple-value-setq (value text) (archive-program-instead name arguments text)))
+        (*core-progress* *core-progress*) (*core-too-large* nil)
+        (*core-cheaper* (archive-cheaper name arguments)))
+    (multiple-value-bind (value text)
+        (core-caught (lambda () (archive-in-time name arguments)))
       (if text (merror "~A" text) value))))
+
+(defun archive-in-time (name arguments)
+  "The value within the call's limit of time; the dialog, which waits for the person, has none."
+  (flet ((answer () (archive-value-or-program name arguments)))
+    (if (archive-asks-p name arguments)
+        (answer)
+        (archive-watched arguments #'answer))))
+
+(defun archive-asks-p (name arguments)
+  "Whether the call begins with the dialog."
+  (and (core-public-kinds (gethash name *core-publics*)) (every #'archive-equation-p arguments)))
+
+(defun archive-cheaper (name arguments)
+  "What would be cheaper than the call of NAME, as a phrase."
+  (and (archive-program-serves-p name arguments) "take form = program"))
+
+(defun archive-watched (arguments function)
+  "FUNCTION, watched as the options among ARGUMENTS say."
+  (let ((*core-progress* (and *core-progress* (archive-early-option arguments '$progress t))))
+    (core-watched (archive-limit arguments)
+                  (lambda () (core-progress "reading") (funcall function)))))
+
+(defun archive-early-option (arguments option default)
+  "The value of OPTION before the options are checked."
+  (let ((equation (find-if (lambda (e) (and (archive-equation-p e) (eq (cadr e) option)))
+                           arguments)))
+    (if equation (caddr equation) default)))
+
+(defun archive-limit (arguments)
+  "The limit of a call in seconds, nil for none; inside another call only one that is given."
+  (let ((limit (archive-early-option arguments '$limit nil)))
+    (cond ((or (null limit) (not (archive-option-fits :seconds limit)))
+           (if *core-deadlines* nil *core-limit*))
+          ((zerop1 limit) nil)
+          (t (core-time limit)))))
+
+(defun archive-value-or-program (name arguments)
+  (multiple-value-bind (value text) (archive-tried name arguments)
+    (when (and text *core-too-large* (archive-program-serves-p name arguments))
+      (multiple-value-setq (value text) (archive-program-instead name arguments text)))
+    (if text (merror "~A" text) value)))
 
 (defun archive-program-instead (name arguments text)
   "As core-caught: the program of what would be too long; TEXT, the first error, where there is none."
@@ -28,7 +69,8 @@
              (values program nil)))))
 
 (defun archive-tried (name arguments)
-  (core-caught (lambda () (archive-called name arguments))))
+  "The call; one that fills the memory ends here, so that its program can be tried."
+  (core-caught (lambda () (core-watched nil (lambda () (archive-called name arguments))))))
 
 (defun archive-called (name arguments)
   (multiple-value-bind (positional options) (archive-split-arguments arguments)
@@ -44,7 +86,7 @@
   (core-require "archive/dialog_end")
   (let ((path (funcall 'archive-dialog (core-public-name public) (core-public-kinds public)
                        (lambda (text) (archive-trial-trouble public text options)))))
-    (archive-call-system public (list path) options)))
+    (archive-watched options (lambda () (archive-call-system public (list path) options)))))
 
 (defun archive-trial-trouble (public text options)
   "What is wrong with the archive TEXT when PUBLIC is called on it, or nil; nothing is saved."
@@ -52,7 +94,8 @@
    (lambda ()
      (let ((archive (archive-of-text "the description" text)))
        (setf (archive-path archive) nil)
-       (archive-run (archive-call-on public archive '() options))))))
+       (archive-watched options
+                        (lambda () (archive-run (archive-call-on public archive '() options))))))))
 
 (defun archive-call-system (public positional options)
   (archive-run (archive-call-on public (archive-open-system (car positional)) (cdr positional)
@@ -75,7 +118,6 @@
 
 (defun archive-run (call)
   "The value of the call's target, computed in the guard; new steps are saved."
-  (setq *core-started* (get-internal-real-time))
   (core-guarded (archive-call-facts call)
                 (lambda ()
                   (let ((target (core-public-name (archive-call-public call))))

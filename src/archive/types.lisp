@@ -254,9 +254,17 @@
       (archive-unfit))
     (loop for i below n
           do (loop for j from 0 to i
-                   do (unless (eql 0 (sratsimp (add (nth j (nth i rows)) (nth i (nth j rows)))))
+                   do (when (archive-clearly-unequal-p (nth j (nth i rows)) (nth i (nth j rows)))
                         (archive-unfit "rows ~d and ~d disagree" (1+ j) (1+ i)))))
     (archive-matrix rows)))
+
+(defun archive-clearly-unequal-p (x y)
+  "Whether X is not -Y, where both are small; what reading would have to multiply out is left to
+those who compute with it."
+  (let ((sum (add x y)))
+    (not (or (eql sum 0)
+             (not (archive-modest-p sum))
+             (eql 0 (sratsimp sum))))))
 
 ;; Lists of equations
 

@@ -10,6 +10,7 @@
 (defvar *core-loaded* (make-hash-table :test #'equal)
   "Part -> names of the Maxima functions it defined, or t for Lisp.")
 (defvar *core-room-keys* (make-hash-table :test #'equal) "Room -> digest of its Lisp sources.")
+(defvar *core-loading* #'funcall "Calls a function that loads a part: the watch waits for it.")
 (defvar *core-archive* nil "The archive a call works on, while it runs.")
 
 (setq *core-root*
@@ -132,6 +133,16 @@ Returns their names."
   (let ((names (gethash part *core-loaded*)))
     (if (consp names) (every (lambda (name) (mget name 'mexpr)) names) names)))
 
+(defun core-loaded-unwatched (part source)
+  "Loads SOURCE; a call that needs it is not stopped meanwhile."
+  (flet ((loaded ()
+           (let ((lisp (core-existing-file (concatenate 'string source "lisp"))))
+             (or (if lisp
+                     (core-load-lisp part lisp)
+                     (core-load-mac (concatenate 'string source "mac")))
+                 t))))
+    (funcall *core-loading* #'loaded)))
+
 (defun core-require (&rest parts)
   "Loads those of PARTS that are not there."
   (dolist (part parts)
@@ -139,17 +150,13 @@ Returns their names."
       (setf (gethash part *core-loaded*) t)
       (let ((source (format nil "~asrc/~a." *core-root* part)) (done nil))
         (unwind-protect
-             (let ((lisp (core-existing-file (concatenate 'string source "lisp"))))
-               (setf (gethash part *core-loaded*)
-                     (or (if lisp
-                             (core-load-lisp part lisp)
-                             (core-load-mac (concatenate 'string source "mac")))
-                         t)
-                     done t))
+             (setf (gethash part *core-loaded*) (core-loaded-unwatched part source)
+                   done t)
           (unless done (remhash part *core-loaded*)))))))
 
 (defun $core_require (&rest parts)
   (apply #'core-require parts)
   '$done)
 
-(core-require "core/messages" "core/register" "core/guard" "core/faces")
+(core-require "core/messages" "core/register" "core/guard" "core/watch" "core/faces")
+#+sbcl (core-require "core/alarm")

@@ -21,7 +21,7 @@ only.")
     $features $% $%% $_ $__ $infolists $prompt $linel $stdin $stdout $transcript $debugmode
     $showtime $lasttime $plot_options $gnuplot_command $gnuplot_view_args $gnuplot_term
     $gnuplot_out_file $random $version $build_info $ttyoff $gensumnum $testsuite_files
-    $share_testsuite_files)
+    $share_testsuite_files $factor_max_degree_print_warning)
   "Variables that are not options of a computation, or whose change must last.")
 
 (defun core-with-values (names values function)
@@ -45,7 +45,8 @@ last `piece' of an expression."
                                                         '($labels $contexts $activecontexts)))))
 
 (defun core-default-options ()
-  "Two lists: option variables that differ from Maxima's defaults, and the defaults."
+  "Two lists: option variables that differ from Maxima's defaults, and the defaults; and one whose
+default is to print a line."
   (let ((names '()) (defaults '()) (kept (append *core-kept-variables* (cdr $infolists))))
     (maphash (lambda (name default)
                (when (and (char= (char (string name) 0) #\$) (boundp name)
@@ -56,7 +57,7 @@ last `piece' of an expression."
                  (push name names)
                  (push default defaults)))
              *variable-initial-values*)
-    (values names defaults)))
+    (values (cons '$factor_max_degree_print_warning names) (cons nil defaults))))
 
 (defun core-refuse-question (message &rest ignored)
   (declare (ignore ignored))
@@ -68,16 +69,16 @@ last `piece' of an expression."
 (defun core-without-questions (function)
   "Calls FUNCTION; where Maxima would ask the person something, an error is signalled instead."
   (let ((asking (symbol-function 'retrieve)))
-    (setf (symbol-function 'retrieve) #'core-refuse-question)
-    (unwind-protect (funcall function)
+    (unwind-protect (progn (setf (symbol-function 'retrieve) #'core-refuse-question)
+                           (funcall function))
       (setf (symbol-function 'retrieve) asking))))
 
 (defun core-without-dependencies (function)
   "Calls FUNCTION while no symbol depends on another."
   (let ((saved (loop for entry in (cdr $dependencies)
                      collect (cons (caar entry) (mget (caar entry) 'depends)))))
-    (loop for (name) in saved do (mremprop name 'depends))
-    (unwind-protect (funcall function)
+    (unwind-protect (progn (loop for (name) in saved do (mremprop name 'depends))
+                           (funcall function))
       (loop for (name . list) in saved do (mputprop name list 'depends)))))
 
 (defun core-put-away (name)
@@ -104,9 +105,10 @@ last `piece' of an expression."
                                           (symbol-value l)))
                           lists)
                   (lambda ()
-                    (loop for (name . value) in *core-kept-values* do (set name value))
                     (unwind-protect
-                         (core-without-questions (lambda () (core-with-facts facts function)))
+                         (progn
+                           (loop for (name . value) in *core-kept-values* do (set name value))
+                           (core-without-questions (lambda () (core-with-facts facts function))))
                       (core-hide-new-values users))))))
           (multiple-value-bind (names defaults) (core-default-options)
             (core-with-values names defaults

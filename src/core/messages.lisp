@@ -12,8 +12,8 @@
 (defvar *core-left-out* nil "What the result leaves out, newest first.")
 (defvar *core-level* '$canonical
   "The form of an answer where that is left to the derivation: factored once a part was too long.")
-(defvar *core-started* nil "Internal real time at which the call began.")
 (defvar *core-progress* t "Whether progress lines are wanted.")
+(defvar *core-doing* nil "What is being done, such as \"computing Lagrangian\".")
 (defvar *core-warnings* nil "Warnings already given in this call.")
 
 (defun core-words (items)
@@ -57,14 +57,6 @@
     (unless (member text *core-warnings* :test #'string=)
       (push text *core-warnings*)
       (core-note "warning: ~a" text))))
-
-(defun core-progress (control &rest arguments)
-  "One line once two seconds have gone by since the last one."
-  (let ((now (get-internal-real-time)))
-    (when (and *core-progress* *core-started*
-               (> (- now *core-started*) (* 2 internal-time-units-per-second)))
-      (setq *core-started* now)
-      (core-note "~?" control arguments))))
 
 (defun $core_error (&rest items) (core-signal (core-words items)))
 

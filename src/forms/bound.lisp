@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/exchange"))
+  (core-require "forms/exchange" "forms/kinks"))
 
 (defun forms-bound-exchange (e pairs)
   (cond ((eq (caar e) '%at) (forms-exchange-at e pairs))
@@ -103,6 +103,10 @@
                          collect (list '(mequal simp) old new))))
 
 (defun forms-at-noun (e equations)
+  (or (and (consp e) (forms-kinked-slope e (forms-read-pairs equations)))
+      (forms-at-noun-itself e equations)))
+
+(defun forms-at-noun-itself (e equations)
   ($nounify '$at) ; or Maxima prints ?%at
   (simplifya (list '(%at) e (if (cdr equations) (cons '(mlist simp) equations) (car equations)))
              nil))

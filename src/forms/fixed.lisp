@@ -12,8 +12,16 @@
 (defun forms-fixed (rational)
   (round (* rational (ash 1 forms-digits))))
 
+(defconstant forms-most-digits 40000
+  "Binary digits that a value may have: exp(10^7) has none that is of use.")
+
+(defun forms-no-value (e)
+  (declare (ignore e))
+  (throw 'forms-no-value nil))
+
 (defun forms-fixed-times (x y)
-  (ash (* x y) (- forms-digits)))
+  (let ((product (ash (* x y) (- forms-digits))))
+    (if (< (integer-length product) forms-most-digits) product (forms-no-value product))))
 
 (defun forms-fixed-dot (u v)
   (let ((sum 0))
@@ -21,15 +29,20 @@
     (ash sum (- forms-digits))))
 
 (defun forms-fixed-power (base n)
+  "By squaring; in no more steps than N has binary digits."
   (let ((power (ash 1 forms-digits)))
-    (loop repeat n do (setq power (forms-fixed-times power base)))
+    (loop until (zerop n)
+          do (when (oddp n) (setq power (forms-fixed-times power base)))
+             (setq n (ash n -1))
+             (unless (zerop n) (setq base (forms-fixed-times base base))))
     power))
 
 (defun forms-fixed-inverse (x)
   (round (ash 1 (* 2 forms-digits)) x))
 
 (defun forms-fixed-sine-cosine (x)
-  "Sine and cosine of X."
+  "Sine and cosine of X, which is no angle of millions of turns."
+  (when (> (integer-length x) (+ forms-digits forms-doublings 6)) (forms-no-value x))
   (multiple-value-bind (sine versine) (forms-fixed-series (ash x (- forms-doublings)))
     (loop repeat forms-doublings
           do (psetq sine (* 2 (forms-fixed-times sine (- (ash 1 forms-digits) versine)))

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/value"))
+  (core-require "forms/noun_value"))
 
 (defconstant forms-rate-step-digits 170)
 

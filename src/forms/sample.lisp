@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Expressions made fit for numbers: every function that is left open becomes a polynomial of its
-;;; own, the same wherever it occurs, and its derivatives and integrals that stand as nouns are
-;;; carried out.
+;;; own, the same wherever it occurs, and its derivatives that stand as nouns are carried out. What
+;;; Maxima cannot carry out, and every integral, stays: noun_value.lisp gives it a value.
 
 (in-package :maxima)
 
@@ -34,14 +34,20 @@
                             (mul (forms-sample-coefficient name (- k)) x y))))
     sum))
 
+(defparameter *forms-order* 6 "The highest order of a derivative that is carried out for a check.")
+
+(defun forms-low-order-p (parts)
+  "Whether the derivative (f x n y m ..) is of an order at which it cannot grow much."
+  (loop for (nil order) on (cdr parts) by #'cddr
+        always (or (null order) (not (integerp order)) (<= order *forms-order*))))
+
 (defun $forms_closed (e)
   "E with polynomials for its open functions."
   (if (or (atom e) (member 'array (car e)) (forms-derivative-p e))
       e
       (let ((parts (mapcar #'$forms_closed (cdr e))))
         (case (caar e)
-          (%derivative (apply #'$diff parts))
-          (%integrate (apply #'$integrate parts))
+          (%derivative (if (forms-low-order-p parts) (apply #'$diff parts) (cons '(%derivative simp) parts)))
           (%at (apply #'$at parts))
           (t (cond ((forms-open-function-p (caar e)) (forms-sample-polynomial (caar e) parts))
                    ((every #'eq parts (cdr e)) e)

@@ -43,10 +43,6 @@
   (cond ((rationalp e) e)
         ((ratnump e) (/ (cadr e) (caddr e)))))
 
-(defun forms-no-value (e)
-  (declare (ignore e))
-  (throw 'forms-no-value nil))
-
 (defun forms-fixed-value (e point)
   (cond ((forms-rational e) (forms-fixed (forms-rational e)))
         ((symbolp e) (or (forms-place e point) (forms-symbol-value e point)))
@@ -81,14 +77,16 @@
               (t (forms-fixed-inverse power))))
       (forms-function-value '((mexpt)) (list base (forms-fixed-value exponent point)) point)))
 
-(defun forms-operation-value (e point)
-  (flet ((parts () (mapcar (lambda (part) (forms-fixed-value part point)) (cdr e))))
-    (cond ((forms-bound-noun-p e) (forms-fixed-value ($forms_closed e) point))
-          ((forms-open-function-p (caar e)) (forms-open-value (caar e) (parts)))
-          (t (forms-function-value e (parts) point)))))
+(defvar *forms-noun-value* nil "The value of a noun at a point, see noun_value.lisp.")
 
 (defun forms-bound-noun-p (e)
   (member (caar e) '(%derivative %integrate %at)))
+
+(defun forms-operation-value (e point)
+  (flet ((parts () (mapcar (lambda (part) (forms-fixed-value part point)) (cdr e))))
+    (cond ((forms-bound-noun-p e) (funcall *forms-noun-value* e point))
+          ((forms-open-function-p (caar e)) (forms-open-value (caar e) (parts)))
+          (t (forms-function-value e (parts) point)))))
 
 (defun forms-open-value (name arguments)
   "sum c_k x_k + sum d_k x_k x_(k+1) as in forms-sample-polynomial."
@@ -137,14 +135,32 @@
     (if (eq operator '%sin) sine cosine)))
 
 (defun forms-long-float-value (e arguments)
-  (let* (($fpprec 160) (fpprec (+ 2 (integer-length (expt 10 $fpprec))))
-         (numbers (mapcar (lambda (x) ($bfloat (div x (ash 1 forms-digits)))) arguments))
-         (found ($bfloat (if arguments
-                             (simplifya (cons (list (caar e)) numbers) nil)
-                             (cadr e)))))
+  (forms-check-sizes (caar e) arguments)
+  (let ((found (car (core-attempt (lambda () (forms-long-float e arguments))))))
     (if ($bfloatp found)
         (forms-fixed (forms-long-float-ratio found))
         (forms-no-value e))))
+
+(defun forms-long-float (e arguments)
+  "Maxima's long float of the function of E at ARGUMENTS, of the constant E without."
+  (let* (($fpprec 160) (fpprec (+ 2 (integer-length (expt 10 $fpprec))))
+         (numbers (mapcar (lambda (x) ($bfloat (div x (ash 1 forms-digits)))) arguments)))
+    ($bfloat (if arguments
+                 (simplifya (cons (list (caar e)) numbers) nil)
+                 (cadr e)))))
+
+(defun forms-check-sizes (operator arguments)
+  "No value where Maxima's long floats would be too long, or would take too long."
+  (flet ((digits (x) (- (integer-length x) forms-digits)))
+    (let ((most (reduce #'max (mapcar #'digits arguments) :initial-value 0)))
+      (when (or (> most 200)
+                (and (eq operator 'mexpt)
+                     (> (+ (digits (second arguments))
+                           (integer-length (abs (digits (first arguments)))))
+                        (integer-length forms-most-digits)))
+                (and (member operator '(%sinh %cosh %tanh %sech %csch %coth mfactorial %gamma))
+                     (> most 13)))
+        (forms-no-value operator)))))
 
 (defun forms-long-float-ratio (x)
   ;; ((bigfloat .. precision) mantissa exponent) is mantissa*2^(exponent - precision)

@@ -1,0 +1,173 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Every call ends: it has a deadline, and so may have each method inside it. The watch throws to
+;;; the call, so that nothing in between (errcatch, errset, core-attempt, ignore-errors) takes the
+;;; stop for an ordinary error. Who looks at the clock: alarm.lisp, a timer, on SBCL; on other Lisps
+;;; the guards, by core-watch. Look first at core-watched and core-within.
+
+(in-package :maxima)
+
+(defvar *core-deadlines* '()
+  "Deadlines of the calls and methods that run, the innermost first.")
+(defvar *core-limit* 600 "Seconds that a call may take when it does not say.")
+(defvar *core-cheaper* nil "What else would be cheaper than the call, as a phrase; or nil.")
+(defvar *core-busy* nil "True while the watch has to wait: parts are loaded, a file is written.")
+(defvar *core-stopped* nil "The sentence of the last stop.")
+(defvar *core-terminal* nil "The stream on which the outermost call began.")
+(defvar *core-call-began* nil "Internal real time at which the outermost call began.")
+(defvar *core-next-line* nil "Internal real time of the next line of progress.")
+
+(defstruct core-deadline
+  at      ; internal real time, or nil: never
+  began)
+
+(defun core-new-deadline (seconds)
+  "A deadline SECONDS from now; nil is none."
+  (let ((now (get-internal-real-time)))
+    (make-core-deadline :began now
+                        :at (and seconds
+                                 (+ now (ceiling (* seconds internal-time-units-per-second)))))))
+
+(defun core-seconds-since (time)
+  (/ (- (get-internal-real-time) time) internal-time-units-per-second))
+
+(defun core-seconds-left ()
+  "Seconds until the first of the deadlines, or nil where there is none."
+  (let ((times (remove nil (mapcar #'core-deadline-at *core-deadlines*))))
+    (and times
+         (max 0 (- (core-seconds-since (reduce #'min times)))))))
+
+(defun core-passed-deadline ()
+  "The outermost deadline that has passed, or nil."
+  (let ((now (get-internal-real-time)))
+    (find-if (lambda (deadline)
+               (and (core-deadline-at deadline) (<= (core-deadline-at deadline) now)))
+             *core-deadlines* :from-end t)))
+
+(defun core-postpone (ticks)
+  "All deadlines come TICKS later, as if their work had begun later."
+  (dolist (deadline *core-deadlines*)
+    (incf (core-deadline-began deadline) ticks)
+    (when (core-deadline-at deadline) (incf (core-deadline-at deadline) ticks))))
+
+(defun core-unhurried (function)
+  "Calls FUNCTION, which the watch neither stops nor counts."
+  (let ((began (get-internal-real-time)))
+    (unwind-protect (let ((*core-busy* t)) (funcall function))
+      (core-postpone (- (get-internal-real-time) began)))))
+
+(setq *core-loading* #'core-unhurried)
+
+;;; The sentence of a stop
+
+(defun core-what-is-cheaper ()
+  (format nil "give numbers to some parameters~@[, or ~a~]" *core-cheaper*))
+
+(defun core-rounded (seconds)
+  "SECONDS as a person says them."
+  (if (< seconds 10) (format nil "~,1f" seconds) (format nil "~d" (round seconds))))
+
+(defun core-late-text (deadline)
+  (format nil "stopped after ~a s, the limit of time~@[, while ~a~]; ~a, or more time by ~
+               limit = seconds (0: none)"
+          (core-rounded (core-seconds-since (core-deadline-began deadline))) *core-doing*
+          (core-what-is-cheaper)))
+
+(defun core-stop (deadline text &optional (why 'core-late))
+  "Ends what DEADLINE is for; WHY is core-late, or core-full where it is for memory."
+  (setq *core-stopped* text)
+  (throw deadline why))
+
+(defun core-say-progress (now)
+  "One line on the stream on which the call began, wherever output goes at the moment."
+  (setq *core-next-line* (+ now (* 2 internal-time-units-per-second)))
+  (let ((*standard-output* *core-terminal*))
+    (core-say (format nil "~@[~a: ~]~@[~a, ~]~d s" *core-function* *core-doing*
+                      (round (core-seconds-since *core-call-began*))))))
+
+(defun core-look (may-stop-p may-write-p)
+  "Stops what is late, or says what is being done when a line is due: where the functions allow it."
+  (when (and *core-deadlines* (not *core-busy*))
+    (let ((now (get-internal-real-time)) (late (core-passed-deadline)))
+      (cond ((null late)
+             (when (and *core-progress* (>= now *core-next-line*) (funcall may-write-p))
+               (core-say-progress now)))
+            ((funcall may-stop-p (core-seconds-since (core-deadline-at late)))
+             (core-stop late (core-late-text late)))))))
+
+(defun core-watch ()
+  "A look at the clock; called at guards, where the work may stop."
+  (core-look (constantly t) (constantly t)))
+
+(defun core-progress (control &rest arguments)
+  "Tells the watch what is being done: it stands in the lines of progress, one every two seconds."
+  (setq *core-doing* (apply #'format nil control arguments))
+  (core-watch))
+
+(defun $core_progress (&rest items)
+  (core-progress "~a" (core-words items))
+  '$done)
+
+;;; Work with a deadline. What a stop leaves behind is put in order here: Maxima's bindings, and
+;;; contexts that were made but not yet guarded.
+
+(defun core-restore (bindings context contexts)
+  (errlfun1 bindings)
+  (dolist (name (cdr $contexts))
+    (unless (member name contexts) (mfuncall '$killcontext name)))
+  (unless (eq $context context) (mset '$context context)))
+
+(defun core-until (deadline function)
+  "Two values: what FUNCTION returns and nil, or nil and the sentence of the stop."
+  (let* ((bindings (cons bindlist loclist)) (context $context) (contexts (cdr $contexts))
+         (result (catch deadline
+                   (let ((*core-deadlines* (cons deadline *core-deadlines*)))
+                     (list (funcall function))))))
+    (cond ((consp result) (values (car result) nil))
+          (t (core-restore bindings context contexts)
+             (when (eq result 'core-full) (core-free-memory))
+             (values nil *core-stopped*)))))
+
+(defvar *core-alarm* (lambda (seconds function) (declare (ignore seconds)) (funcall function))
+  "Calls a function under a clock that looks at the deadlines by itself, first after SECONDS or
+earlier.")
+(defvar *core-collector* (lambda ()) "Frees the memory of what was stopped.")
+
+(defun core-free-memory ()
+  (setq *core-too-large* t)
+  (funcall *core-collector*))
+
+(defun core-call-outermost (seconds function)
+  (let* ((*core-terminal* *standard-output*) (*core-doing* nil)
+         (*core-call-began* (get-internal-real-time))
+         (*core-next-line* (+ *core-call-began* (* 2 internal-time-units-per-second))))
+    (funcall *core-alarm* seconds function)))
+
+(defun core-timed (seconds function)
+  "As core-until, SECONDS from now; nil is no limit. Inside a call its deadline counts too."
+  (let ((deadline (core-new-deadline seconds)))
+    (flet ((timed () (core-until deadline function)))
+      (if *core-deadlines* (timed) (core-call-outermost seconds #'timed)))))
+
+(defun core-watched (seconds function)
+  "What FUNCTION returns; an error after SECONDS, nil for no limit."
+  (multiple-value-bind (value stop) (core-timed seconds function)
+    (if stop (core-signal stop) value)))
+
+(defun core-within (time function)
+  "As core-timed: FUNCTION has TIME seconds, or from 1 down that share of the time left."
+  (let ((left (core-seconds-left)))
+    (core-timed (cond ((> time 1) time) (left (* time left))) function)))
+
+(defun core-time (e)
+  "E as a positive number."
+  (cond ((and (realp e) (plusp e)) e)
+        ((and (ratnump e) (plusp (cadr e))) (/ (cadr e) (caddr e)))
+        (t (core-error "a time or a share of it was expected, found ~a" (core-words (list e))))))
+
+(defmspec $core_within (form)
+  ;; core_within(time, e): [value of e], or [] when the time is up. From 1 down it is a share of
+  ;; the time that the call has left. Errors are not caught.
+  (destructuring-bind (time e) (cdr form)
+    (multiple-value-bind (value stop)
+        (core-within (core-time (meval time)) (lambda () (meval e)))
+      (if stop '((mlist simp)) (list '(mlist simp) value)))))
