@@ -11,6 +11,15 @@
         ((floatp e) (let (($ratprint nil) (ratio (maxima-rationalize e)))
                       (/ (car ratio) (cdr ratio))))))
 
+(defun algebra-prime-factors (n)
+  "(prime power prime power ..); a large N counts as one prime."
+  (cond ((= n 1) nil)
+        ((< n (expt 10 14)) (cfactorw n))
+        (t (list n 1))))
+
+(defun algebra-golden-ratio ()
+  (mul '((rat simp) 1 2) (add 1 (power 5 '((rat simp) 1 2)))))
+
 (defun algebra-least (items measure)
   (let ((least (car items)) (smallest (funcall measure (car items))))
     (dolist (item (cdr items) least)
