@@ -3,9 +3,9 @@
 ;;; How small a real algebraic number can be that is not 0.  A constant is U/(m*L) with algebraic
 ;;; integers U, L and a whole m; u and l bound U and L in every embedding of their field, of degree
 ;;; D.  If U is not 0 its norm is at least 1, so |U| >= u^(1-D) and the constant at least
-;;; 1/(m*l*u^(D-1))  (Burnikel, Fleischer, Mehlhorn, Schirra, A separation bound for real algebraic
-;;; expressions, Algorithmica 55, 2009).  D counts each radical once, and all angles together:
-;;; cosines of rational parts of a turn lie in one real cyclotomic field, of degree phi(N)/2.
+;;; 1/(m*l*u^(D-1))  (Burnikel, Funke, Mehlhorn, Schirra, Schmitt, A separation bound for real
+;;; algebraic expressions, Algorithmica 55, 2009).  D counts each radical once, and all angles
+;;; together: cosines of parts of a turn lie in one real cyclotomic field, of degree phi(N)/2.
 
 (in-package :maxima)
 
