@@ -29,7 +29,6 @@
 
 (defun algebra-i-of (e)
   (cond ((rationalp e) (algebra-i e))
-        ((floatp e) (algebra-i (algebra-rational-number e)))
         ((eq e '$%pi) (algebra-i-pi))
         ((eq e '$%e) (algebra-i-exp (algebra-i 1)))
         ((eq e '$%phi) (algebra-i-of (algebra-golden-ratio)))
@@ -37,7 +36,7 @@
         ((atom e) (throw 'no-interval nil))
         (t (case (caar e)
              (rat (algebra-i (/ (cadr e) (caddr e))))
-             (bigfloat (algebra-i-of ($rationalize e)))
+             (bigfloat (throw 'no-interval nil))
              (mplus (reduce #'algebra-i+ (mapcar #'algebra-i-of (cdr e))))
              (mtimes (reduce #'algebra-i* (mapcar #'algebra-i-of (cdr e))))
              (mexpt (algebra-i-general-power (cadr e) (caddr e)))
