@@ -7,9 +7,16 @@
 
 (defun algebra-rational-number (e)
   (cond ((rationalp e) e)
-        ((ratnump e) (/ (cadr e) (caddr e)))
-        ((floatp e) (let (($ratprint nil) (ratio (maxima-rationalize e)))
-                      (/ (car ratio) (cdr ratio))))))
+        ((ratnump e) (/ (cadr e) (caddr e)))))
+
+(defun algebra-prime-factors (n)
+  "(prime power prime power ..); a large N counts as one prime."
+  (cond ((= n 1) nil)
+        ((< n (expt 10 14)) (cfactorw n))
+        (t (list n 1))))
+
+(defun algebra-golden-ratio ()
+  (mul '((rat simp) 1 2) (add 1 (power 5 '((rat simp) 1 2)))))
 
 (defun algebra-least (items measure)
   (let ((least (car items)) (smallest (funcall measure (car items))))
@@ -25,6 +32,9 @@
 
 (defun algebra-outside (e)
   (core-error "a formula was expected, found ~A" (algebra-short-text e)))
+
+(defun algebra-decimal (e)
+  (core-error "the decimal ~A came into exact mathematics; type a fraction" (algebra-short-text e)))
 
 (defun algebra-short-text (e)
   (let ((text (coerce (mstring e) 'string)))

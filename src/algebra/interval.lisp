@@ -14,10 +14,6 @@
 (defvar *algebra-point* nil "values of symbols and open functions: (expression . rational), ..")
 (defvar *algebra-coordinate* nil "function that gives a symbol its value; nil: constants only")
 
-(defun algebra-interval-sign (e)
-  "1 or -1 if the constant E is proved positive or negative, else nil."
-  (algebra-interval-sign-among e '(64 192 640 2048)))
-
 (defun algebra-interval-sign-among (e widths)
   (loop for bits in widths
         thereis (algebra-interval-sign-at e bits)))
@@ -33,15 +29,14 @@
 
 (defun algebra-i-of (e)
   (cond ((rationalp e) (algebra-i e))
-        ((floatp e) (algebra-i (algebra-rational-number e)))
         ((eq e '$%pi) (algebra-i-pi))
         ((eq e '$%e) (algebra-i-exp (algebra-i 1)))
-        ((eq e '$%phi) (algebra-i-of '((mtimes) ((rat) 1 2) ((mplus) 1 ((mexpt) 5 ((rat) 1 2))))))
+        ((eq e '$%phi) (algebra-i-of (algebra-golden-ratio)))
         ((symbolp e) (algebra-i-unknown e))
         ((atom e) (throw 'no-interval nil))
         (t (case (caar e)
              (rat (algebra-i (/ (cadr e) (caddr e))))
-             (bigfloat (algebra-i-of ($rationalize e)))
+             (bigfloat (throw 'no-interval nil))
              (mplus (reduce #'algebra-i+ (mapcar #'algebra-i-of (cdr e))))
              (mtimes (reduce #'algebra-i* (mapcar #'algebra-i-of (cdr e))))
              (mexpt (algebra-i-general-power (cadr e) (caddr e)))
@@ -100,11 +95,15 @@
   (algebra-i+ a (algebra-i-minus b)))
 
 (defun algebra-i* (a b)
-  (let ((products (list (* (car a) (car b)) (* (car a) (cdr b))
-                        (* (cdr a) (car b)) (* (cdr a) (cdr b))))
-        (shift (- *algebra-interval-bits*)))
-    (cons (ash (reduce #'min products) shift)
-          (- (ash (- (reduce #'max products)) shift)))))
+  (if (and (plusp (car a)) (plusp (car b)))
+      (algebra-i-rounded (* (car a) (car b)) (* (cdr a) (cdr b)))
+      (let ((products (list (* (car a) (car b)) (* (car a) (cdr b))
+                            (* (cdr a) (car b)) (* (cdr a) (cdr b)))))
+        (algebra-i-rounded (reduce #'min products) (reduce #'max products)))))
+
+(defun algebra-i-rounded (low high)
+  (let ((shift (- *algebra-interval-bits*)))
+    (cons (ash low shift) (- (ash (- high) shift)))))
 
 (defun algebra-i/ (a b)
   (unless (or (plusp (car b)) (minusp (cdr b))) (throw 'no-interval nil))
@@ -112,6 +111,10 @@
                          append (loop for y in (list (car b) (cdr b))
                                       collect (/ (* x (algebra-i-unit)) y)))))
     (cons (floor (reduce #'min quotients)) (ceiling (reduce #'max quotients)))))
+
+(defun algebra-i-over (a n)
+  "A divided by the integer N > 0."
+  (cons (floor (car a) n) (ceiling (cdr a) n)))
 
 (defun algebra-i-abs (a)
   (cond ((minusp (cdr a)) (algebra-i-minus a))
@@ -136,28 +139,36 @@
                                         (algebra-i-log (algebra-i-of base))))))))
 
 (defun algebra-i-root (a n)
-  (when (minusp (car a)) (throw 'no-interval nil))
-  (let ((scale (ash 1 (* (1- n) *algebra-interval-bits*))))
-    (cons (algebra-integer-root (* (car a) scale) n)
-          (1+ (algebra-integer-root (* (cdr a) scale) n)))))
+  "Odd roots of negative numbers are real, as Maxima has them."
+  (when (and (evenp n) (minusp (car a))) (throw 'no-interval nil))
+  (let ((shift (* (1- n) *algebra-interval-bits*)))
+    (cons (algebra-root-below (ash (car a) shift) n)
+          (- (algebra-root-below (- (ash (cdr a) shift)) n)))))
+
+(defun algebra-root-below (a n)
+  "The largest integer not above the root of A, which has the sign of A."
+  (if (minusp a)
+      (let ((root (algebra-integer-root (- a) n)))
+        (- (if (= (expt root n) (- a)) root (1+ root))))
+      (algebra-integer-root a n)))
 
 (defun algebra-integer-root (a n)
-  "The largest integer whose n-th power is not above A >= 0."
-  (if (= n 2)
-      (isqrt a)
-      (let ((low 0) (high (ash 1 (1+ (ceiling (integer-length a) n)))))
-        (loop while (> (- high low) 1)
-              do (let ((middle (ash (+ low high) -1)))
-                   (if (<= (expt middle n) a) (setq low middle) (setq high middle))))
-        low)))
+  "The largest integer whose n-th power is not above A >= 0: Newton's iteration from above."
+  (cond ((= n 2) (isqrt a))
+        ((zerop a) 0)
+        (t (loop with x = (ash 1 (ceiling (integer-length a) n))
+                 for better = (floor (+ (* (1- n) x) (floor a (expt x (1- n)))) n)
+                 while (< better x)
+                 do (setq x better)
+                 finally (return x)))))
 
 ;;; Series.  Each is summed in intervals; the remainder is below the last term kept.
 
-(defun algebra-i-series (first ratio-of)
-  "FIRST and the terms that follow by RATIO-OF (an interval for each place), halving at least."
+(defun algebra-i-series (first next)
+  "FIRST and the terms that follow, each by NEXT from the last and its place, halving at least."
   (let ((sum first) (term first))
     (loop for k from 1
-          do (setq term (algebra-i* term (funcall ratio-of k)))
+          do (setq term (funcall next term k))
              (setq sum (algebra-i+ sum term))
           until (and (<= -2 (car term)) (<= (cdr term) 2)))
     (cons (- (car sum) 8) (+ (cdr sum) 8))))
@@ -189,7 +200,8 @@
     (algebra-with-guard-bits ((+ 16 (* 2 k)) x)
       (let* ((small (algebra-i-scale-down x k))
              (power (algebra-i-series (algebra-i 1)
-                                      (lambda (n) (algebra-i* small (algebra-i (/ 1 n)))))))
+                                      (lambda (term n)
+                                        (algebra-i-over (algebra-i* small term) n)))))
         (loop repeat k do (setq power (algebra-i* power power)))
         power))))
 
@@ -203,7 +215,7 @@
 
 (defun algebra-i-angle (x)
   "(cosine . sine) by halving the angle, the series, and doubling."
-  (let* ((k (algebra-i-halvings x))
+  (let* ((k (+ (algebra-i-halvings x) (isqrt (floor *algebra-interval-bits* 8))))
          (guard (+ 16 (* 3 k)))
          (angle (let ((*algebra-interval-bits* (+ *algebra-interval-bits* guard)))
                   (algebra-i-doubled (algebra-i-small-angle
@@ -216,9 +228,9 @@
     (flet ((series (first shift)
              (algebra-i-series
               first
-              (lambda (n)
-                (algebra-i* minus-square
-                            (algebra-i (/ 1 (* (+ n n shift) (+ n n shift -1)))))))))
+              (lambda (term n)
+                (algebra-i-over (algebra-i* minus-square term)
+                                (* (+ n n shift) (+ n n shift -1)))))))
       (cons (series (algebra-i 1) 0) (series x 1)))))
 
 (defun algebra-i-doubled (angle k)
@@ -237,16 +249,26 @@
          (sum z))
     (loop for n from 3 by 2
           do (setq power (algebra-i* power square)
-                   sum (algebra-i+ sum (algebra-i* power (algebra-i (/ 1 n)))))
+                   sum (algebra-i+ sum (algebra-i-over power n)))
           until (and (<= -2 (car power)) (<= (cdr power) 2)))
     (cons (- (car sum) 8) (+ (cdr sum) 8))))
 
 (defun algebra-i-pi ()
   "Machin: 16*atan(1/5) - 4*atan(1/239)."
-  (algebra-with-guard-bits (16)
+  (algebra-with-guard-bits (24)
     (algebra-i-
-     (algebra-i* (algebra-i 16) (algebra-i-odd-series (algebra-i 1/5) -1))
-     (algebra-i* (algebra-i 4) (algebra-i-odd-series (algebra-i 1/239) -1)))))
+     (algebra-i* (algebra-i 16) (algebra-i-atan-of-inverse 5))
+     (algebra-i* (algebra-i 4) (algebra-i-atan-of-inverse 239)))))
+
+(defun algebra-i-atan-of-inverse (n)
+  "atan(1/n) = 1/n - 1/(3*n^3) + .., each quotient of integers wrong by less than 2."
+  (let ((power (floor (algebra-i-unit) n)) (sum 0) (terms 0))
+    (loop until (zerop power)
+          do (let ((term (floor power (1+ (* 2 terms)))))
+               (setq sum (if (evenp terms) (+ sum term) (- sum term))
+                     power (floor power (* n n))
+                     terms (1+ terms))))
+    (cons (- sum terms terms 2) (+ sum terms terms 2))))
 
 (defun algebra-i-atan (x)
   "atan(x) = 2*atan(x/(1+sqrt(1+x^2))), three times."

@@ -1,102 +1,87 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; Constants: is a polynomial in roots of numbers, in sines and cosines of %pi/n, and in other
-;;; constants zero?  Intervals prove that it is not.  For an algebraic number z a polynomial P with
-;;; P(z) = 0 comes by resultants; a root that is not zero is at least |q0|/(|q0| + max|qi|) in size
-;;; (Cauchy, q the coefficients of P from the lowest that is not zero): an interval below that
-;;; bound proves z = 0.
+;;; The sign of a real constant, zero included.  Intervals prove that it is not zero.  An algebraic
+;;; number (nested roots, sines and cosines of parts of %pi) is zero if it is smaller than it could
+;;; be otherwise (separation.lisp): one interval of that many digits decides.  What intervals do not
+;;; separate and no bound covers, or would take too many digits, is not decided.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/reduction" "algebra/interval"))
+  (core-require "algebra/interval" "algebra/separation"))
 
-(defun algebra-constant-test (p)
-  "zero, not-zero or dependent, P a polynomial in constant kernels."
-  (if (pzerop p)
-      'zero
-      (let ((e (simplify (pdisrep p))))
-        (cond ((algebra-interval-sign-among e '(64 256)) 'not-zero)
-              ((algebra-algebraic-zero-p p e) 'zero)
-              ((algebra-interval-sign-among e '(1024)) 'not-zero)
-              (t 'dependent)))))
+(defparameter *algebra-most-bits* 30000 "binary digits that are spent on the sign of a constant")
 
-(defun algebra-algebraic-zero-p (p e)
-  (let ((relations (algebra-number-relations p)))
-    (and (listp relations)
-         (<= (reduce #'* (mapcar #'cddr relations)) 100)
-         (let ((bound (algebra-root-bound (algebra-annihilator p relations))))
-           (and bound (algebra-below-p e bound))))))
+(defun algebra-constant-verdict (e)
+  "1, -1 or 0, proved, for the real constant E; nil if it is not decided."
+  (let ((number (algebra-rational-number e)))
+    (if number
+        (signum number)
+        (or (algebra-interval-sign-among e '(64 256))
+            (algebra-separated-sign e)))))
 
-(defun algebra-number-relations (p)
-  "A list of (variable polynomial . degree), highest variable first, or `transcendental'."
-  (let ((relations nil))
-    (dolist (kernel (algebra-ring-kernels *algebra-ring*) relations)
-      (when (and ($constantp (algebra-kernel-expression kernel))
-                 (or relations (algebra-occurs-p (algebra-kernel-variable kernel) p)
-                     (algebra-kernel-degree kernel)
-                     (algebra-number-unit kernel)))
-        (let ((relation (algebra-number-relation kernel)))
-          (cond (relation (push relation relations))
-                ((algebra-occurs-p (algebra-kernel-variable kernel) p)
-                 (return 'transcendental))))))))
+(defun algebra-interval-sign (e)
+  "1 or -1 if the constant E is proved positive or negative, else nil."
+  (let ((sign (algebra-constant-verdict e)))
+    (if (eql sign 0) nil sign)))
 
-(defun algebra-number-relation (kernel)
-  (let ((variable (algebra-kernel-variable kernel))
-        (degree (algebra-kernel-degree kernel))
-        (unit (algebra-number-unit kernel)))
-    (cond (degree
-           (destructuring-bind (n . d) (algebra-kernel-radicand kernel)
-             (list* variable (pdifference (ptimes d (list variable degree 1)) n) degree)))
-          (unit
-           (if (eq kernel (algebra-unit-cosine unit))
-               (let ((order (algebra-unit-denominator unit)))
-                 (list* variable
-                        (pplus 1 (caar (algebra-chebyshev (algebra-variable kernel) 1 order)))
-                        order))
-               (list* variable
-                      (pplus (list variable 2 1)
-                             (list (algebra-kernel-variable (algebra-unit-cosine unit)) 2 1 0 -1))
-                      2))))))
+(defun algebra-separated-sign (e)
+  (let* ((plain (catch 'algebra-undecided (algebra-plain-constant e)))
+         (bits (and plain (algebra-separation-bits plain))))
+    (cond ((null plain) nil)
+          ((null bits) (algebra-interval-sign-among plain '(1024 4096)))
+          ((> bits *algebra-most-bits*)
+           (algebra-interval-sign-among plain (list 1024 4096 *algebra-most-bits*)))
+          ((algebra-interval-sign-among plain (if (> bits 4096) '(1024))))
+          (t (algebra-sign-or-zero plain bits)))))
 
-(defun algebra-number-unit (kernel)
-  "The unit of cos(%pi/n) or sin(%pi/n)."
-  (find-if (lambda (unit)
-             (and (eq (algebra-unit-base unit) '$%pi)
-                  (member kernel (list (algebra-unit-cosine unit) (algebra-unit-sine unit)))))
-           (algebra-ring-units *algebra-ring*)))
+(defun algebra-sign-or-zero (e bits)
+  "The sign of E, which is 0 or in size at least 2^-BITS; more digits where E loses some."
+  (loop for width in (list (+ bits 64) (* 2 (+ bits 64)))
+        thereis (or (algebra-interval-sign-at e width)
+                    (let* ((*algebra-interval-bits* width)
+                           (interval (catch 'no-interval (algebra-i-of e))))
+                      (and interval (algebra-i-below-p interval bits) 0)))))
 
-(defun algebra-annihilator (p relations)
-  "The rational coefficients, highest first, of a polynomial that vanishes at the value of P."
-  (let* ((z (gensym))
-         (polynomial (sub z (algebra-plain p))))
-    (loop for (variable relation) in relations
-          do (when (among variable polynomial)
-               (setq polynomial ($resultant polynomial (algebra-plain relation) variable))))
-    (setq polynomial ($expand ($ratdisrep polynomial)))
-    (loop for power from ($hipow polynomial z) downto 0
-          collect (algebra-rational-number ($coeff polynomial z power)))))
+(defun algebra-i-below-p (interval bits)
+  "Whether all of INTERVAL is smaller than 2^-BITS."
+  (< (max (abs (car interval)) (abs (cdr interval)))
+     (ash 1 (max 0 (- *algebra-interval-bits* bits)))))
 
-(defun algebra-plain (p)
-  "P with the polynomials' own symbols as its variables."
-  (if (atom p)
-      p
-      (addn (loop for (exponent coefficient) on (cdr p) by #'cddr
-                  collect (mul (algebra-plain coefficient) (power (car p) exponent)))
-            nil)))
+;;; A constant without absolute values, tangents and the like.  What stands under an even root or
+;;; below the line is decided: a zero is written as 0.
 
-(defun algebra-root-bound (coefficients)
-  (let* ((significant (reverse (member 0 (reverse coefficients) :test-not #'eql)))
-         (lowest (abs (or (car (last significant)) 0))))
-    (if (and significant (every #'rationalp significant) (plusp lowest))
-        (/ lowest (+ lowest (reduce #'max significant :key #'abs))))))
+(defun algebra-plain-constant (e)
+  "E in sums, products, powers, sines and cosines; throws algebra-undecided."
+  (cond ((eq e '$%phi) (algebra-golden-ratio))
+        ((or (atom e) (algebra-rational-number e)) e)
+        (t (case (caar e)
+             ((mplus mtimes)
+              (simplifya (cons (list (caar e)) (mapcar #'algebra-plain-constant (cdr e))) nil))
+             (mexpt (algebra-plain-power (algebra-plain-constant (cadr e)) (caddr e)))
+             (mabs (let ((inside (algebra-plain-constant (cadr e))))
+                     (mul (algebra-decided-sign inside) inside)))
+             (%tan (algebra-plain-ratio '%sin '%cos (cadr e)))
+             (%cot (algebra-plain-ratio '%cos '%sin (cadr e)))
+             (%sec (algebra-plain-ratio nil '%cos (cadr e)))
+             (%csc (algebra-plain-ratio nil '%sin (cadr e)))
+             (t e)))))
 
-(defun algebra-below-p (e bound)
-  "|E| is proved below BOUND."
-  (loop for bits in (let ((needed (+ 80 (integer-length (ceiling (/ 1 bound))))))
-                      (list needed (* 2 needed) (* 4 needed)))
-        thereis (let* ((*algebra-interval-bits* bits)
-                       (interval (catch 'no-interval (algebra-i-of e))))
-                  (and interval
-                       (< (max (abs (car interval)) (abs (cdr interval)))
-                          (* bound (algebra-i-unit)))))))
+(defun algebra-plain-ratio (above below angle)
+  (flet ((of (f) (if f (simplify (list (list f) angle)) 1)))
+    (mul (of above) (algebra-plain-power (of below) -1))))
+
+(defun algebra-plain-power (base exponent)
+  (let ((number (algebra-rational-number exponent)))
+    (if (or (null number) (algebra-rational-number base)
+            (not (or (minusp number) (evenp (denominator number)))))
+        (power base exponent)
+        (let ((sign (algebra-decided-sign base)))
+          (cond ((not (zerop sign)) (if (and (minusp sign) (evenp (denominator number)))
+                                        (throw 'algebra-undecided nil)
+                                        (power base exponent)))
+                ((minusp number) (core-error "division by zero"))
+                (t 0))))))
+
+(defun algebra-decided-sign (e)
+  (or (algebra-constant-verdict e) (throw 'algebra-undecided nil)))

@@ -172,9 +172,11 @@
 (defun algebra-point (equations)
   (loop for equation in (cdr equations)
         collect (cons (second equation)
-                      (or (algebra-rational-number (third equation))
-                          (core-error "a value is a number, found ~a"
-                                      (mfuncall '$string (third equation)))))))
+                      (let ((value (third equation)))
+                        (cond ((floatp value) (rational value))
+                              ((algebra-rational-number value))
+                              (t (core-error "a value is a number, found ~a"
+                                             (mfuncall '$string value))))))))
 
 (defun algebra-evaluated-program (record point exactly)
   (with-algebra-program

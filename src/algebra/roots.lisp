@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/nouns"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/nouns" "algebra/numbers"))
 
 (defvar *algebra-roots-apart* nil "true: roots of products become products of roots where allowed")
 
@@ -30,11 +30,6 @@
                           (if (zerop rest)
                               (expt prime whole)
                               (list '^ (algebra-root-kernel prime degree scan) power))))))
-
-(defun algebra-prime-factors (n)
-  (cond ((= n 1) nil)
-        ((< n (expt 10 14)) (cfactorw n))
-        (t (list n 1))))
 
 ;;; A radicand as a list of (factor . power), powers negative below the line.
 
@@ -87,8 +82,8 @@
       (truncate power degree)))
 
 (defun algebra-known-sign (e)
-  (if (and (integerp e) (minusp e))
-      '$neg
+  (if ($constantp e)
+      (case (algebra-constant-verdict e) (1 '$pos) (-1 '$neg) (0 '$zero) (t '$unknown))
       (algebra-quietly (lambda () ($sign e)))))
 
 (defun algebra-absolute (e scan)

@@ -13,11 +13,11 @@
 
 (defun algebra-scan (e)
   (cond ((symbolp e) (algebra-scan-symbol e))
-        ((numberp e) (algebra-rational-number e))
+        ((rationalp e) e)
+        ((or (floatp e) ($bfloatp e)) (algebra-decimal e))
         ((atom e) (algebra-outside e))
         (t (case (caar e)
              (rat (/ (cadr e) (caddr e)))
-             (bigfloat (let ((ratio ($rationalize e))) (algebra-scan ratio)))
              (mplus (cons '+ (mapcar #'algebra-scan (cdr e))))
              (mtimes (cons '* (mapcar #'algebra-scan (cdr e))))
              (mminus (list '* -1 (algebra-scan (cadr e))))

@@ -16,9 +16,9 @@
         (t (algebra-zero-test e))))
 
 (defun algebra-zero-test (e)
-  (case (algebra-remainder-test e)
-    (zero t)
-    (not-zero nil)
+  (case (or (and ($constantp e) (algebra-constant-verdict e)) (algebra-remainder-test e))
+    ((0 zero) t)
+    ((1 -1 not-zero) nil)
     (t (if (algebra-nonzero-somewhere-p e) nil '$unknown))))
 
 (defun algebra-remainder-test (e)
@@ -65,7 +65,28 @@
   (let ((coefficients (list p)))
     (dolist (kernel (algebra-ring-kernels *algebra-ring*) coefficients)
       (when (or (algebra-kernel-sure kernel) (eq (algebra-kernel-expression kernel) '$%i))
-        (setq coefficients
-              (loop for coefficient in coefficients
-                    append (mapcar #'cadr (algebra-powers coefficient
-                                                          (algebra-kernel-variable kernel)))))))))
+        (setq coefficients (algebra-coefficients-of-all coefficients
+                                                        (algebra-kernel-variable kernel)))))))
+
+(defun algebra-coefficients-of-all (polynomials variable)
+  (loop for p in polynomials
+        append (mapcar #'cadr (algebra-powers p variable))))
+
+(defun algebra-constant-test (p)
+  "zero, not-zero or dependent, P a polynomial in constant kernels."
+  (if (pzerop p)
+      'zero
+      (case (algebra-constant-verdict (simplify (pdisrep p)))
+        (0 'zero)
+        ((1 -1) 'not-zero)
+        (t (if (algebra-parts-vanish-p p) 'zero 'dependent)))))
+
+(defun algebra-parts-vanish-p (p)
+  "P vanishes for every value of the transcendental constants in it."
+  (let ((parts (list p)))
+    (dolist (kernel (algebra-ring-kernels *algebra-ring*))
+      (unless (algebra-algebraic-p (algebra-kernel-expression kernel))
+        (setq parts (algebra-coefficients-of-all parts (algebra-kernel-variable kernel)))))
+    (and (not (equal parts (list p)))
+         (loop for part in parts
+               always (eql 0 (algebra-constant-verdict (simplify (pdisrep part))))))))

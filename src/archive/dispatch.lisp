@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/steps"))
+  (core-require "archive/call" "archive/decimals" "archive/steps"))
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
@@ -73,7 +73,8 @@
   (core-caught (lambda () (core-watched nil (lambda () (archive-called name arguments))))))
 
 (defun archive-called (name arguments)
-  (multiple-value-bind (positional options) (archive-split-arguments arguments)
+  (multiple-value-bind (positional options)
+      (archive-split-arguments (archive-exact-decimals arguments))
     (let ((public (gethash name *core-publics*)))
       (cond ((and (null positional) (core-public-kinds public))
              (archive-ask public options))

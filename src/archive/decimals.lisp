@@ -1,0 +1,126 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Decimals typed in a call. Mathematics is exact: a decimal of at most 15 digits is the fraction
+;;; that was typed, 0.3 is 3/10, which is said once, and so is 1/0.3, which Maxima divides. A number
+;;; that needs more digits comes from a rounding before the call, as 0.1+0.2-0.3 does, and is
+;;; refused. Start values, spans of time and the like may be any numbers. Look first at
+;;; archive-exact-decimals.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/simplify" "archive/speller"))
+
+(defparameter *archive-exact-digits* 15 "Digits that a double keeps of every decimal.")
+(defparameter *archive-inverse-digits* 8
+  "Digits of a decimal whose inverse is recognised; with more a rounding could look like one.")
+
+(defun archive-decimal-p (e) (or (floatp e) ($bfloatp e)))
+
+(defun archive-binary-number (e)
+  "Two values: E = m*2^x, a double or a bigfloat, exactly, and half the step to its neighbours."
+  (multiple-value-bind (m x)
+      (if (floatp e)
+          (multiple-value-bind (m x sign) (integer-decode-float e) (values (* sign m) x))
+          (values (cadr e) (- (caddr e) (car (last (car e))))))
+    (values (* m (expt 2 x)) (expt 2 (1- x)))))
+
+(defun archive-rounded-decimal (number digits)
+  "NUMBER rounded to so many significant DIGITS."
+  (let* ((bits (- (integer-length (numerator number)) (integer-length (denominator number))))
+         (unit (expt 10 (- (floor (* bits 30103) 100000) digits))))
+    (loop while (>= (abs (/ number unit)) (expt 10 digits)) do (setq unit (* 10 unit)))
+    (* unit (round number unit))))
+
+(defun archive-fraction-of-decimal (e digits)
+  "The rational that E prints as, with at most so many DIGITS; nil if it needs more."
+  (multiple-value-bind (number half-step) (archive-binary-number e)
+    (if (zerop number)
+        0
+        (loop for n from 1 to digits
+              for fraction = (archive-rounded-decimal number n)
+              when (<= (abs (- fraction number)) half-step) return fraction))))
+
+(defun archive-finite-p (e)
+  (or (not (floatp e)) (<= (abs e) most-positive-double-float)))
+
+(defun archive-fraction-of-inverse (e)
+  "1/d, where d is a short decimal and E the number next to 1/d; else nil."
+  (multiple-value-bind (number half-step) (archive-binary-number e)
+    (loop for n from 1 to *archive-inverse-digits*
+          for fraction = (/ 1 (archive-rounded-decimal (/ 1 number) n))
+          when (<= (abs (- fraction number)) half-step) return fraction)))
+
+(defun archive-decimal-text (e)
+  (cond ((or ($bfloatp e) (not (archive-finite-p e))) (core-words (list e)))
+        ((minusp e) (concatenate 'string "-" (archive-spell-double (- e))))
+        (t (archive-spell-double e))))
+
+(defun archive-exact-decimal (e)
+  (or (and (archive-finite-p e)
+           (or (archive-fraction-of-decimal e *archive-exact-digits*)
+               (archive-fraction-of-inverse e)))
+      (core-error "~a arrived, a decimal of more than ~a digits: it was rounded before the call, ~
+                   as 0.1+0.2-0.3 is; type fractions"
+                  (archive-decimal-text e) *archive-exact-digits*)))
+
+;;; Where they stand
+
+(defvar *archive-decimals* '() "Decimals found in a call, with their fractions, newest first.")
+
+(defun archive-floating-key-p (key)
+  (or (eq key $values) (member key '($start $time $limit $tolerance))))
+
+(defun archive-with-parts (e parts)
+  "E with other PARTS, simplified where these are numbers, sums, products, powers or functions."
+  (cond ((every #'eq parts (cdr e)) e)
+        ((or (mbagp e) (member (caar e) '(mequal mgreaterp mlessp mgeqp mleqp mnotequal
+                                          %derivative %integrate %sum %product %limit %at lambda)))
+         (cons (car e) parts))
+        (t (simplifya (cons (remove 'simp (car e)) parts) t))))
+
+(defun archive-check-decimal-power (base exponent)
+  (when (and (archive-decimal-p exponent) (not (archive-decimal-p base))
+             (> (abs (archive-binary-number exponent)) 1000))
+    (core-error "the exponent ~a is a decimal; type it as an integer"
+                (archive-decimal-text exponent))))
+
+(defun archive-plain-part-p (e)
+  "Whether no decimals are looked for in E: names, exact numbers, what is no expression."
+  (or (atom e) (atom (car e)) (member (caar e) '(rat mrat))))
+
+(defun archive-without-decimals (e)
+  "E with fractions for its decimals."
+  (cond ((archive-decimal-p e)
+         (let ((fraction (archive-maxima-number (archive-exact-decimal e))))
+           (pushnew (cons e fraction) *archive-decimals* :test #'equal)
+           fraction))
+        ((archive-plain-part-p e) e)
+        ((and (mequalp e) (archive-floating-key-p (cadr e)))
+         (list (car e) (cadr e) (archive-with-any-decimals (caddr e))))
+        (t (when (mexptp e) (archive-check-decimal-power (cadr e) (caddr e)))
+           (archive-with-parts e (mapcar #'archive-without-decimals (cdr e))))))
+
+(defun archive-with-any-decimals (e)
+  "E with fractions for its decimals, however many digits these have."
+  (cond ((and (archive-decimal-p e) (archive-finite-p e))
+         (archive-maxima-number (or (archive-fraction-of-decimal e 17) (archive-binary-number e))))
+        ((archive-plain-part-p e) e)
+        (t (archive-with-parts e (mapcar #'archive-with-any-decimals (cdr e))))))
+
+(defun archive-say-decimals (decimals)
+  (let ((text (format nil "decimals are taken as fractions: ~{~a is ~a~^, ~}~:[~;, ..~]"
+                      (loop for (decimal . fraction) in decimals
+                            repeat 3
+                            collect (archive-decimal-text decimal)
+                            collect (core-words (list fraction)))
+                      (nthcdr 3 decimals))))
+    (unless (member text *core-warnings* :test #'string=)
+      (push text *core-warnings*)
+      (core-note "~a" text))))
+
+(defun archive-exact-decimals (arguments)
+  "ARGUMENTS of a call, options included, with fractions for decimals."
+  (let* ((*archive-decimals* '())
+         (exact (archive-with-plain-simplifier (mapcar #'archive-without-decimals arguments))))
+    (when *archive-decimals* (archive-say-decimals (reverse *archive-decimals*)))
+    exact))
