@@ -173,7 +173,13 @@
 (core-public "KelvinChetaev"
   :forms '(("forces" "M" "D" "G" "K" "P"))
   :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
-(core-rule "KelvinChetaev" :any "analysis/forces" "analysis_kelvin_chetaev" "M" "D" "G" "K" "P")
+(core-rule "KelvinChetaev" '("forces") "analysis/forces" "analysis_kelvin_chetaev"
+  "M" "D" "G" "K" "P")
+(core-rule "KelvinChetaev" *analysis-motions* "analysis/forces" "analysis_kelvin_chetaev_system"
+  "M" "D" "G" "K" "P" "LagrangeEquations" "coordinates" "solution" *analysis-where*)
+(core-rule-given '("function" $routh) "KelvinChetaev" *analysis-motions* "analysis/forces"
+  "analysis_kelvin_chetaev_system"
+  "M" "D" "G" "K" "P" "RouthEquations" "remaining_coordinates" "solution" *analysis-where*)
 (loop for part in '("D" "G" "K" "P")
       do (core-rule-field part *analysis-motions* "ForceStructure" part))
 

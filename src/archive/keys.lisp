@@ -134,7 +134,8 @@
      ("unknowns" :names nil
       "what equilibria and stationary motions are solved for; the rest stays free"
       "What is solved for")
-     ("solution" :motion nil "the motion to be judged; velocities and momenta not named are 0"
+     ("solution" :motion nil
+      "the motion to be judged, perhaps as x = r*W*t; velocities and momenta not named are 0"
       "Motion to be judged")
      ("start" :motion nil "start values of a run" "Start values of a run")
      ("time" :span nil "span of a run" "Span of a run"))
