@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/steps"))
+  (core-require "archive/call" "archive/steps" "archive/options" "archive/arguments"))
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
@@ -31,7 +31,8 @@
   (core-caught (lambda () (archive-called name arguments))))
 
 (defun archive-called (name arguments)
-  (multiple-value-bind (positional options) (archive-split-arguments arguments)
+  (multiple-value-bind (positional options)
+      (archive-split-arguments (archive-general-arguments arguments))
     (let ((public (gethash name *core-publics*)))
       (cond ((and (null positional) (core-public-kinds public))
              (archive-ask public options))
