@@ -1,13 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Arguments and options of calls on expressions: in general form, of the shape that their names
-;;; ask for. A function computes with what it is given; what it cannot mean is refused here, in one
-;;; sentence that says which argument, what was found, and what to type.
-;;; Look first at archive-general-arguments and archive-check-argument.
+;;; The shapes of arguments and options in calls on expressions. What a function is given it
+;;; computes with: a list where a formula is due, a name that stands twice, a function of x that is
+;;; spelled x(t) would give an answer to another question, silently. All this is refused here, in
+;;; one sentence that says which argument, what was found and what to type.
+;;; Look first at archive-check-arguments, at the end.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/types" "archive/speller"))
+  (core-require "archive/keys" "archive/types" "archive/meant" "archive/speller"))
 
 (defun archive-general-arguments (arguments)
   "ARGUMENTS with what `rat' and `taylor' made of them in general form."
@@ -15,25 +16,205 @@
             (if (archive-contains-p argument 'mrat) ($totaldisrep argument) argument))
           arguments))
 
-(defun archive-argument-type (name)
-  "The type of the argument or option NAME, that of the key of [system], or nil."
+;;; Types
+
+(defparameter *archive-argument-types*
+  '((:formula archive-as-formula "a formula")
+    (:shape archive-as-shape "a formula, or a list, equation or matrix of formulas")
+    (:variables archive-as-variables "a list of names, such as [phi, theta]")
+    (:variable archive-as-variable "a name, such as lambda")
+    (:motion archive-as-movement "a list such as [theta = 0, 'diff(theta,t) = w]")
+    (:rates archive-as-system "a list of equations such as ['diff(x,t) = y, 'diff(y,t) = -x]")
+    (:integrals archive-as-integrals "a list of integrals such as [V0 = x^2 + y^2]")
+    (:square archive-as-square "a matrix, such as matrix([1, 0], [0, 2])"))
+  "As *archive-types*, for what is typed in the session: velocities are 'diff(q,t), names may have
+subscripts, and a formula may stand for a law of its own.")
+
+(defparameter *archive-argument-names*
+  '((:formula "Lagrangian" "MixedPotential" "polynomial" "lagrangian" "hamiltonian")
+    (:shape "expression" "f" "g")
+    (:variables "coordinates" "variables")
+    (:variable "lambda" "u")
+    (:motion "motion" "solution")
+    (:rates "equations")
+    (:integrals "integrals")
+    (:square "A" "M" "S" "W" "D" "G" "P"))
+  "Arguments by their types; of the others the type is that of the key of [system].")
+
+(defun archive-argument-type (name kind)
+  "The type of the argument or option NAME in a call of KIND, or nil. K is a function to some
+functions and a matrix to others."
   (let ((key (find-if (lambda (key) (and (string= (archive-key-name key) name)
                                          (string= (archive-key-section key) "system")))
                       *archive-keys*)))
-    (and key (archive-key-type key))))
+    (cond ((string= name "K") (if (string= kind "forces") :square :formula))
+          ((car (find-if (lambda (row) (member name (cdr row) :test #'string=))
+                         *archive-argument-names*)))
+          (key (archive-key-type key)))))
 
-(defparameter *archive-argument-phrases*
-  '((:motion "a list such as [theta = 0, 'diff(theta,t) = w]")
-    (:rates "a list of equations such as ['diff(x,t) = y, 'diff(y,t) = -x]"))
-  "What an argument is, where the session spells it otherwise than an archive.")
+(defun archive-argument-row (type)
+  (or (assoc type *archive-argument-types*) (assoc type *archive-types*)))
 
-(defun archive-argument-phrase (type)
-  (or (second (assoc type *archive-argument-phrases*)) (archive-type-phrase type)))
+(defun archive-check-argument (name value kind)
+  "An error unless VALUE can be the argument or option NAME in a call of KIND."
+  (let ((row (archive-argument-row (archive-argument-type name kind))))
+    (when row
+      (let ((trouble (catch 'archive-unfitd (funcall (second row) value) nil)))
+        (when trouble
+          (core-error "~a must be ~a, found ~a~:[; ~a~;~]" name (third row)
+                      (archive-argument-shown value) (string= trouble "") trouble))))))
 
-(defun archive-check-argument (name value)
-  "An error unless VALUE can be the argument or option NAME."
-  (let* ((type (archive-argument-type name))
-         (trouble (and type (nth-value 1 (archive-typed type value)))))
-    (when trouble
-      (core-error "~a must be ~a, found ~a~:[; ~a~;~]" name (archive-argument-phrase type)
-                  (core-words (list value)) (string= trouble "") trouble))))
+(defun archive-argument-shown (value)
+  "VALUE as Maxima spells it, cut after sixty letters."
+  (let ((text (if (stringp value) (format nil "~s" value) (core-words (list value)))))
+    (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text)))
+
+(defun archive-formula-p (value)
+  (and (archive-expression-p value)
+       (not (archive-head-p value 'lambda 'mqapply '$set 'mcond))
+       (not (member value '($inf $minf $infinity $und $ind)))))
+
+(defun archive-as-formula (value)
+  (cond ((archive-formula-p value) value)
+        ((archive-equation-p value) (archive-unfit "write it without ="))
+        (t (archive-unfit))))
+
+(defun archive-as-shape (value)
+  (if (or (archive-list-p value) (archive-equation-p value) (archive-head-p value '$matrix))
+      (mapc #'archive-as-shape (cdr value))
+      (archive-as-formula value)))
+
+(defun archive-variable-p (value)
+  "A name, plain or with subscripts."
+  (or (and (archive-symbol-p value) (not (eq value '$t)))
+      (and (consp value) (consp (car value)) (member 'array (cdar value)) t)))
+
+(defun archive-as-variable (value)
+  (if (and (archive-variable-p value) (atom value)) value (archive-unfit)))
+
+(defun archive-a-variable (value)
+  (cond ((archive-variable-p value) value)
+        ((eq value '$t) (archive-unfit "t is the time"))
+        ((and (archive-equation-p value) (archive-variable-p (second value)))
+         (archive-unfit "give the name alone"))
+        (t (archive-unfit "~a is not a name" (archive-argument-shown value)))))
+
+(defun archive-as-variables (value)
+  (unless (archive-items value) (archive-unfit))
+  (archive-check-distinct (mapcar #'archive-a-variable (archive-items value))))
+
+(defun archive-time-derivative-p (value)
+  (and (archive-head-p value '%derivative) (archive-variable-p (second value))
+       (eq (third value) '$t) (null (cddddr value))))
+
+(defun archive-as-movement (value)
+  "Equations for coordinates and derivatives of coordinates, none twice."
+  (dolist (item (archive-items value))
+    (unless (archive-equation-p item)
+      (archive-unfit "~a is not an equation" (archive-argument-shown item)))
+    (unless (archive-time-derivative-p (second item)) (archive-a-variable (second item)))
+    (archive-formula-inside (third item)))
+  (archive-check-distinct (archive-lefts value)))
+
+(defun archive-formula-inside (value)
+  (unless (archive-formula-p value)
+    (archive-unfit "~a is not a formula" (archive-argument-shown value))))
+
+(defun archive-as-system (value)
+  "Equations, or formulas that vanish, some with derivatives."
+  (unless (archive-items value) (archive-unfit))
+  (dolist (item (archive-items value))
+    (mapc #'archive-formula-inside (if (archive-equation-p item) (cdr item) (list item))))
+  (unless (archive-contains-p value '%derivative)
+    (archive-unfit "there is no derivative 'diff(x,t) in them")))
+
+(defun archive-as-integrals (value)
+  (dolist (item (archive-items value))
+    (archive-formula-inside (if (archive-equation-p item) (third item) item))))
+
+(defun archive-as-square (value)
+  (unless (and (archive-head-p value '$matrix) (cdr value)) (archive-unfit))
+  (dolist (row (cdr value)) (mapc #'archive-formula-inside (cdr row))))
+
+;;; What stands in them
+
+(defun archive-moving-arguments (given)
+  "The names that move in a call: coordinates, variables, what is differentiated."
+  (let ((names '()))
+    (flet ((note (value) (when (archive-variable-p value) (pushnew value names :test #'equal))))
+      (loop for name in '("coordinates" "variables")
+            do (mapc #'note (cdr (gethash name given))))
+      (loop for name being the hash-keys of given using (hash-value value)
+            do (archive-map-parts (lambda (part)
+                                    (when (archive-time-derivative-p part) (note (second part))))
+                                  value)))
+    names))
+
+(defun archive-map-parts (function value)
+  "Calls FUNCTION on VALUE and all its parts."
+  (funcall function value)
+  (unless (atom value)
+    (dolist (part (cdr value)) (archive-map-parts function part))))
+
+(defun archive-check-contents (name value moving)
+  (archive-map-parts (lambda (part) (archive-check-part name part moving)) value))
+
+(defun archive-check-part (name part moving)
+  "An error for a PART of the argument NAME that cannot mean what it says."
+  (cond ((member part '($inf $minf $infinity $und $ind))
+         (core-error "~a in ~a is no number" (archive-argument-shown part) name))
+        ((atom part))
+        ((archive-meant-function part)
+         (core-error "~a in ~a is no function of Maxima; ~a?" (archive-argument-shown part) name
+                     (archive-meant-text part)))
+        ((member 'array (cdar part)) (archive-check-subscripts name part moving))
+        ((and (member (caar part) moving) (cdr part))
+         (core-error "~a in ~a: write ~a for the coordinate and 'diff(~a,t) for its velocity"
+                     (archive-argument-shown part) name (core-spelling (caar part))
+                     (core-spelling (caar part))))))
+
+(defun archive-check-subscripts (name part moving)
+  (when (some (lambda (x) (some (lambda (subscript) (archive-occurs-p x subscript)) (cdr part)))
+              moving)
+    (core-error "~a in ~a is a name with a subscript, and constant; a function is written with ( )"
+                (archive-argument-shown part) name)))
+
+;;; Functions of the coordinates that have none of them
+
+(defun archive-check-occurrence (given)
+  "An error where none of the coordinates or variables occurs in what they belong to: a name that
+has no value yet would give equations 0 = 0."
+  (let ((names (cdr (or (gethash "coordinates" given) (gethash "variables" given))))
+        (function (find-if (lambda (name) (nth-value 1 (gethash name given)))
+                           '("Lagrangian" "K"))))
+    (when (and names function)
+      (unless (loop for name being the hash-keys of given using (hash-value value)
+                    thereis (and (not (member name '("coordinates" "variables" "solution" "f" "g")
+                                              :test #'string=))
+                                 (some (lambda (x) (archive-occurs-p x value)) names)))
+        (archive-fault-constant function (gethash function given) names)))))
+
+(defun archive-fault-constant (name value variables)
+  (if (symbolp value)
+      (core-error "~a is the name ~a, which has no value; give it one, or type the function" name
+                  (archive-argument-shown value))
+      (core-error "~a contains none of ~{~a~^, ~}, found ~a" name
+                  (mapcar #'archive-argument-shown variables) (archive-argument-shown value))))
+
+(defun archive-occurs-p (x value)
+  (or (equal x value)
+      (and (consp value)
+           (or (and (consp x) (archive-head-p value (caar x)) (equal (cdr x) (cdr value)))
+               (some (lambda (part) (archive-occurs-p x part)) (cdr value))))))
+
+;;; All of a call
+
+(defun archive-check-arguments (given kind)
+  "An error for the first of the arguments and options GIVEN, a table, that a call of KIND cannot
+take."
+  (loop for name being the hash-keys of given using (hash-value value)
+        do (archive-check-argument name value kind))
+  (let ((moving (archive-moving-arguments given)))
+    (loop for name being the hash-keys of given using (hash-value value)
+          unless (stringp value) do (archive-check-contents name value moving)))
+  (archive-check-occurrence given))

@@ -72,6 +72,7 @@
          (call (archive-new-call public nil (car form))))
     (archive-give-positional call (cdr form) positional)
     (archive-give-options call options)
+    (archive-check-arguments (archive-call-given call) (car form))
     (archive-run call)))
 
 (defun archive-run (call)

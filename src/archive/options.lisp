@@ -86,11 +86,12 @@ arrive as their values."
       (walk name))
     seen))
 
-(defun archive-reachable (name kind)
-  "Names of the quantities, options and keys that may count for NAME in archives of KIND."
+(defun archive-reachable (call name)
+  "Names of the quantities, options and keys that may count for NAME, whatever the options say."
   (archive-walk name (lambda (name)
-                       (loop for rule in (archive-rules-for name kind)
-                             append (archive-rule-sources rule)))))
+                       (unless (archive-argument-p call name)
+                         (loop for rule in (archive-rules-for name (archive-call-kind call))
+                               append (archive-rule-sources rule))))))
 
 (defun archive-touched (call name)
   "Names of the quantities, options and keys that count for NAME in this CALL: by the rules that
@@ -127,8 +128,7 @@ its options choose, and the conditions of those that they do not."
 
 (defun archive-taken-options (call)
   "Names of the options that the function takes in archives of this kind, or in this form, sorted."
-  (let ((names (archive-reachable (core-public-name (archive-call-public call))
-                                  (archive-call-kind call))))
+  (let ((names (archive-reachable call (core-public-name (archive-call-public call)))))
     (sort (remove-if-not (lambda (option)
                            (and (archive-option-counts-p call option names)
                                 (not (archive-argument-p call option))))
@@ -194,17 +194,15 @@ its options choose, and the conditions of those that they do not."
   "A key that a rule builds on, as rayleigh where there are dampers, is given to the rule only."
   (let* ((kind (archive-call-kind call))
          (key (member name (archive-overrulable-keys kind) :test #'string=)))
-    (cond ((null (archive-call-archive call)) (archive-give-plain call name value))
-          (key (archive-overrule call name value)))
+    (cond ((archive-call-archive call) (when key (archive-overrule call name value)))
+          ((string= name "parameters") (archive-give-facts call value)))
     (unless (and key (archive-call-archive call) (core-find-rule name kind (constantly nil)))
       (archive-give call name value))))
 
-(defun archive-give-plain (call name value)
-  "A key among the options of a call on expressions has the form that it has in an archive; what
-is assumed of parameters becomes facts."
-  (archive-check-argument name value)
-  (when (string= name "parameters")
-    (setf (archive-call-facts call) (remove-if-not #'archive-relation-p (cdr value)))))
+(defun archive-give-facts (call value)
+  "What is assumed of parameters in a call on expressions."
+  (archive-check-argument "parameters" value (archive-call-kind call))
+  (setf (archive-call-facts call) (remove-if-not #'archive-relation-p (cdr value))))
 
 ;;; Keys that are overruled
 
