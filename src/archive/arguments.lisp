@@ -1,14 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The shapes of arguments and options in calls on expressions. What a function is given it
-;;; computes with: a list where a formula is due, a name that stands twice, a function of x that is
-;;; spelled x(t) would give an answer to another question, silently. All this is refused here, in
-;;; one sentence that says which argument, what was found and what to type.
-;;; Look first at archive-check-arguments, at the end.
+;;; computes with: a list where a formula is due, or a name that stands twice, would give an answer
+;;; to another question, silently. What does not fit is refused here, in one sentence that says
+;;; which argument, what was found and what to type. Look first at archive-check-argument.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/types" "archive/meant" "archive/speller"))
+  (core-require "archive/keys" "archive/types" "archive/names" "archive/speller"))
 
 (defun archive-general-arguments (arguments)
   "ARGUMENTS with what `rat' and `taylor' made of them in general form."
@@ -26,6 +25,7 @@
     (:motion archive-as-movement "a list such as [theta = 0, 'diff(theta,t) = w]")
     (:rates archive-as-system "a list of equations such as ['diff(x,t) = y, 'diff(y,t) = -x]")
     (:integrals archive-as-integrals "a list of integrals such as [V0 = x^2 + y^2]")
+    (:branches archive-as-branches "a list such as [i1 = L1, i2 = L2]")
     (:square archive-as-square "a matrix, such as matrix([1, 0], [0, 2])"))
   "As *archive-types*, for what is typed in the session: velocities are 'diff(q,t), names may have
 subscripts, and a formula may stand for a law of its own.")
@@ -38,6 +38,7 @@ subscripts, and a formula may stand for a law of its own.")
     (:motion "motion" "solution")
     (:rates "equations")
     (:integrals "integrals")
+    (:branches "inductances" "capacitances")
     (:square "A" "M" "S" "W" "D" "G" "P"))
   "Arguments by their types; of the others the type is that of the key of [system].")
 
@@ -132,89 +133,15 @@ functions and a matrix to others."
   (dolist (item (archive-items value))
     (archive-formula-inside (if (archive-equation-p item) (third item) item))))
 
+(defun archive-as-branches (value)
+  "Names of currents or voltages with their inductances or capacitances."
+  (dolist (item (archive-items value))
+    (unless (archive-equation-p item)
+      (archive-unfit "~a is not an equation" (archive-argument-shown item)))
+    (archive-a-variable (second item))
+    (archive-formula-inside (third item)))
+  (archive-check-distinct (archive-lefts value)))
+
 (defun archive-as-square (value)
   (unless (and (archive-head-p value '$matrix) (cdr value)) (archive-unfit))
   (dolist (row (cdr value)) (mapc #'archive-formula-inside (cdr row))))
-
-;;; What stands in them
-
-(defun archive-moving-arguments (given)
-  "The names that move in a call: coordinates, variables, what is differentiated."
-  (let ((names '()))
-    (flet ((note (value) (when (archive-variable-p value) (pushnew value names :test #'equal))))
-      (loop for name in '("coordinates" "variables")
-            do (mapc #'note (cdr (gethash name given))))
-      (loop for name being the hash-keys of given using (hash-value value)
-            do (archive-map-parts (lambda (part)
-                                    (when (archive-time-derivative-p part) (note (second part))))
-                                  value)))
-    names))
-
-(defun archive-map-parts (function value)
-  "Calls FUNCTION on VALUE and all its parts."
-  (funcall function value)
-  (unless (atom value)
-    (dolist (part (cdr value)) (archive-map-parts function part))))
-
-(defun archive-check-contents (name value moving)
-  (archive-map-parts (lambda (part) (archive-check-part name part moving)) value))
-
-(defun archive-check-part (name part moving)
-  "An error for a PART of the argument NAME that cannot mean what it says."
-  (cond ((member part '($inf $minf $infinity $und $ind))
-         (core-error "~a in ~a is no number" (archive-argument-shown part) name))
-        ((atom part))
-        ((archive-meant-function part)
-         (core-error "~a in ~a is no function of Maxima; ~a?" (archive-argument-shown part) name
-                     (archive-meant-text part)))
-        ((member 'array (cdar part)) (archive-check-subscripts name part moving))
-        ((and (member (caar part) moving) (cdr part))
-         (core-error "~a in ~a: write ~a for the coordinate and 'diff(~a,t) for its velocity"
-                     (archive-argument-shown part) name (core-spelling (caar part))
-                     (core-spelling (caar part))))))
-
-(defun archive-check-subscripts (name part moving)
-  (when (some (lambda (x) (some (lambda (subscript) (archive-occurs-p x subscript)) (cdr part)))
-              moving)
-    (core-error "~a in ~a is a name with a subscript, and constant; a function is written with ( )"
-                (archive-argument-shown part) name)))
-
-;;; Functions of the coordinates that have none of them
-
-(defun archive-check-occurrence (given)
-  "An error where none of the coordinates or variables occurs in what they belong to: a name that
-has no value yet would give equations 0 = 0."
-  (let ((names (cdr (or (gethash "coordinates" given) (gethash "variables" given))))
-        (function (find-if (lambda (name) (nth-value 1 (gethash name given)))
-                           '("Lagrangian" "K"))))
-    (when (and names function)
-      (unless (loop for name being the hash-keys of given using (hash-value value)
-                    thereis (and (not (member name '("coordinates" "variables" "solution" "f" "g")
-                                              :test #'string=))
-                                 (some (lambda (x) (archive-occurs-p x value)) names)))
-        (archive-fault-constant function (gethash function given) names)))))
-
-(defun archive-fault-constant (name value variables)
-  (if (symbolp value)
-      (core-error "~a is the name ~a, which has no value; give it one, or type the function" name
-                  (archive-argument-shown value))
-      (core-error "~a contains none of ~{~a~^, ~}, found ~a" name
-                  (mapcar #'archive-argument-shown variables) (archive-argument-shown value))))
-
-(defun archive-occurs-p (x value)
-  (or (equal x value)
-      (and (consp value)
-           (or (and (consp x) (archive-head-p value (caar x)) (equal (cdr x) (cdr value)))
-               (some (lambda (part) (archive-occurs-p x part)) (cdr value))))))
-
-;;; All of a call
-
-(defun archive-check-arguments (given kind)
-  "An error for the first of the arguments and options GIVEN, a table, that a call of KIND cannot
-take."
-  (loop for name being the hash-keys of given using (hash-value value)
-        do (archive-check-argument name value kind))
-  (let ((moving (archive-moving-arguments given)))
-    (loop for name being the hash-keys of given using (hash-value value)
-          unless (stringp value) do (archive-check-contents name value moving)))
-  (archive-check-occurrence given))

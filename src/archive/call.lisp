@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/check" "archive/results"))
+  (core-require "archive/check" "archive/results" "archive/contents"))
 
 (defstruct archive-call
   public archive kind
@@ -37,8 +37,8 @@ at where they are used.")
     (dolist (late (nthcdr first-option arguments))
       (unless (archive-equation-p late)
         (core-error "options such as save = false come after all other arguments; found ~a after ~
-                     one"
-                    (core-words (list late)))))
+                     ~a"
+                    (core-words (list late)) (core-words (list (nth first-option arguments))))))
     (values (subseq arguments 0 first-option) (nthcdr first-option arguments))))
 
 (defun archive-system-p (argument public)
@@ -51,9 +51,14 @@ at where they are used.")
 
 (defun archive-open-system (system)
   "The archive of a path, as given or found by Maxima's file_search, or of a description list."
-  (cond ((not (stringp system)) (archive-check-list system))
+  (cond ((not (stringp system)) (archive-open-list system))
         ((core-existing-file system) (archive-open system))
         (t (archive-open-found system))))
+
+(defun archive-open-list (list)
+  (let ((archive (archive-check-list list)))
+    (archive-check-description-spellings (archive-description archive))
+    archive))
 
 (defun archive-open-found (path)
   (let ((found (car (core-attempt (lambda () ($file_search path))))))

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/steps" "archive/options" "archive/arguments"))
+  (core-require "archive/call" "archive/steps" "archive/options"))
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
@@ -64,6 +64,7 @@
   (let ((call (archive-new-call public archive (archive-kind archive))))
     (archive-give-trailing call trailing)
     (archive-give-options call options)
+    (archive-check-arguments (archive-call-given call) (archive-call-kind call))
     (setq *core-place* (lambda (section key) (archive-place archive section key)))
     call))
 

@@ -32,6 +32,10 @@
           ((and (string/= small name) (member small *archive-capital-functions* :test #'string=))
            small))))
 
+(defun archive-meant-advice (name)
+  "\"; did you mean cos?\", or nothing."
+  (format nil "~@[; did you mean ~a?~]" (archive-meant-name name)))
+
 (defun archive-head-name (e)
   "How a person spells the operator of E, or nil where it is none of a person's."
   (and (consp e) (consp (car e)) (symbolp (caar e))

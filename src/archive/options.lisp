@@ -176,9 +176,9 @@ its options choose, and the conditions of those that they do not."
              (archive-check-option name (caddr equation))
              (when (and (string= name "form") (eq (caddr equation) '$program))
                (archive-check-program-form call)))
-    (loop for equation in options
-          for name in names
-          do (archive-give-option call name (caddr equation)))
+    (archive-give-all call (loop for equation in options
+                                 for name in names
+                                 collect (cons name (caddr equation))))
     (archive-check-effects call names))
   (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil)))
 
@@ -190,14 +190,22 @@ its options choose, and the conditions of those that they do not."
         (unless (archive-option-counts-p call name touched)
           (core-error "the option ~a has no effect beside the others; leave it out" name))))))
 
-(defun archive-give-option (call name value)
-  "A key that a rule builds on, as rayleigh where there are dampers, is given to the rule only."
-  (let* ((kind (archive-call-kind call))
-         (key (member name (archive-overrulable-keys kind) :test #'string=)))
-    (cond ((archive-call-archive call) (when key (archive-overrule call name value)))
-          ((string= name "parameters") (archive-give-facts call value)))
-    (unless (and key (archive-call-archive call) (core-find-rule name kind (constantly nil)))
-      (archive-give call name value))))
+(defun archive-give-all (call pairs)
+  "PAIRS, (name . value) each, as quantities. Keys of an archive are overruled at one stroke, since
+one may need the other; a key that a rule builds on, as rayleigh where there are dampers, is given
+to the rule only."
+  (let* ((kind (archive-call-kind call)) (archive (archive-call-archive call))
+         (keys (and archive (remove-if-not (lambda (pair)
+                                             (member (car pair) (archive-overrulable-keys kind)
+                                                     :test #'string=))
+                                           pairs))))
+    (when keys (archive-overrule call keys))
+    (loop for (name . value) in pairs
+          do (when (and (null archive) (string= name "parameters"))
+               (archive-give-facts call value))
+             (unless (and (assoc name keys :test #'string=)
+                          (core-find-rule name kind (constantly nil)))
+               (archive-give call name value)))))
 
 (defun archive-give-facts (call value)
   "What is assumed of parameters in a call on expressions."
@@ -206,29 +214,31 @@ its options choose, and the conditions of those that they do not."
 
 ;;; Keys that are overruled
 
-(defun archive-overruled-groups (groups name value)
-  "GROUPS with the statement NAME = VALUE in [system] instead of their own."
-  (mapcar (lambda (group)
-            (if (string= (archive-group-section group) "system")
-                (let ((copy (copy-archive-group group)))
-                  (setf (archive-group-statements copy)
-                        (append (remove name (archive-group-statements group)
-                                        :key #'archive-statement-key :test #'equal)
-                                (list (make-archive-statement :key name :value value))))
-                  copy)
-                group))
-          groups))
+(defun archive-overruled-group (group pairs)
+  "GROUP with the statements key = value of PAIRS instead of its own."
+  (let ((copy (copy-archive-group group)))
+    (setf (archive-group-statements copy)
+          (append (remove-if (lambda (statement)
+                               (assoc (archive-statement-key statement) pairs :test #'equal))
+                             (archive-group-statements group))
+                  (loop for (name . value) in pairs
+                        collect (make-archive-statement :key name :value value))))
+    copy))
 
-(defun archive-overruled (archive name value)
-  "ARCHIVE as if its [system] had NAME = VALUE, checked like any other."
+(defun archive-overruled (archive pairs)
+  "ARCHIVE as if its [system] had the keys and values of PAIRS, checked like any other."
   (let ((other (archive-check-groups
                 (archive-path archive) (archive-text archive) (archive-parts archive)
-                (archive-overruled-groups (archive-groups archive) name value))))
+                (mapcar (lambda (group)
+                          (if (string= (archive-group-section group) "system")
+                              (archive-overruled-group group pairs)
+                              group))
+                        (archive-groups archive)))))
     (setf (archive-found other) (archive-found archive))
     other))
 
-(defun archive-overrule (call name value)
-  (push (cons name value) (archive-call-overruled call))
-  (setf (archive-call-archive call) (archive-overruled (archive-call-archive call) name value)
-        (archive-call-facts call)
-        (archive-facts (archive-description (archive-call-archive call)))))
+(defun archive-overrule (call pairs)
+  (let ((archive (archive-overruled (archive-call-archive call) pairs)))
+    (setf (archive-call-overruled call) pairs
+          (archive-call-archive call) archive
+          (archive-call-facts call) (archive-facts (archive-description archive)))))
