@@ -12,7 +12,7 @@
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
-        (*core-started* nil) (*core-progress* t) (*core-too-large* nil))
+        (*core-started* nil) (*core-progress* t) (*core-too-large* nil) (*core-names* '()))
     (multiple-value-bind (value text) (archive-tried name arguments)
       (when (and text *core-too-large* (archive-program-serves-p name arguments))
         (multiple-value-setq (value text) (archive-program-instead name arguments text)))
@@ -76,9 +76,23 @@
     (archive-check-arguments (archive-call-given call) (car form))
     (archive-run call)))
 
+(defun archive-call-names (call)
+  "All names in what CALL was given and in its description, heads of functions too."
+  (let ((names '()))
+    (flet ((note (part)
+             (cond ((archive-symbol-p part) (pushnew part names))
+                   ((and (consp part) (consp (car part)) (archive-symbol-p (caar part)))
+                    (pushnew (caar part) names)))))
+      (loop for value being the hash-values of (archive-call-given call)
+            do (archive-map-parts #'note value))
+      (when (archive-call-archive call)
+        (archive-map-parts #'note (archive-description (archive-call-archive call)))))
+    names))
+
 (defun archive-run (call)
   "The value of the call's target, computed in the guard; new steps are saved."
-  (setq *core-started* (get-internal-real-time))
+  (setq *core-started* (get-internal-real-time)
+        *core-names* (archive-call-names call))
   (core-guarded (archive-call-facts call)
                 (lambda ()
                   (let ((target (core-public-name (archive-call-public call))))
