@@ -160,6 +160,15 @@ check "what the link leads to is written" "$(grep -c '^value = ' folder/a.txt)" 
 check "permissions stay" "$(stat -c %a folder/a.txt)" 640
 rm link.txt
 
+# a hard link cannot be kept by a file that takes another's name at one stroke: nothing is written
+fresh
+ln folder/a.txt other.txt
+maxima 'put_result("folder/a.txt", "A", 3)$ print(end_reached)$'
+check "a hard link: a warning, and the session goes on" \
+  "$(grep -c 'warning: the result is not saved.*hard link\|^end_reached' log)" 2
+check "a hard link: one file still, as it was" "$(started_alike) $(stat -c %h folder/a.txt)" "yes 2"
+rm other.txt
+
 # --- names with characters that mean something to Lisp or the shell ---
 
 odd_name() { # NAME

@@ -45,14 +45,14 @@
   "RouthFunction" "remaining_coordinates" *analysis-unknowns* *analysis-where*)
 
 (core-public "InvariantManifolds"
-  :forms '(("function" "K" "variables")) :options '("extend" "on" "unknowns" "cyclic")
+  :forms '(("function" "K" "variables")) :options '("extend" "within" "unknowns" "cyclic")
   :kinds *analysis-motions*)
 (core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds"
   "analysis_extended_routh" "RouthFunction" "remaining_coordinates" "extend" "cyclic_integrals")
 (core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds"
   "analysis_extended_function" "K" "variables" "extend")
 (core-rule "InvariantManifolds" '("function") "analysis/manifolds" "analysis_invariant_manifolds"
-  "K" "variables" *analysis-unknowns* (list "on" *analysis-none*))
+  "K" "variables" *analysis-unknowns* (list "within" *analysis-none*))
 
 (core-public "Equilibria"
   :forms '(("equations" "equations" "variables")) :options '("unknowns" "where")

@@ -101,12 +101,30 @@
         (core-fault section (archive-key-name key) "~a" (archive-mismatch key value trouble))
         converted)))
 
+(defun archive-check-companion (group key)
+  "An error where KEY, which is given, would have no effect beside the other keys of GROUP."
+  (let* ((default (archive-key-default key)) (name (archive-key-name key))
+         (section (archive-group-section group)))
+    (destructuring-bind (&optional condition other value) (if (consp default) default '())
+      (case condition
+        (:when (unless (equal (archive-given-word group other) value)
+                 (core-fault section name "~a has an effect with ~a = ~a only; write ~a = ~a, or ~
+                                           leave ~a out"
+                             name other value other value name)))
+        (:with (unless (archive-given-p group other)
+                 (core-fault section name "~a has an effect beside ~a only; leave it out, or give ~
+                                           ~a" name other other)))
+        (:unless (when (and (archive-given-p group other) (null value))
+                   (core-fault section name "~a and ~a are both given; leave one of them out"
+                               name other)))))))
+
 (defun archive-key-equation (kind group key)
   "The equation key = value of the description, in a list; nil where the key is absent."
   (let* ((name (archive-key-name key))
          (statement (archive-find-statement group name))
          (reason (and (not statement) (archive-missing-reason key group))))
     (cond (statement
+           (archive-check-companion group key)
            (list (archive-equation (core-symbol name)
                                    (archive-converted (archive-group-section group) key
                                                       (archive-statement-value statement)))))

@@ -137,7 +137,8 @@ that follow."
                 :needed))
           ((eq (first default) :with)
            (and (archive-answered answers section (second default)) :open))
-          (t (if (archive-answered answers section (second default)) nil :needed)))))
+          ((archive-answered answers section (second default)) (and (third default) :open))
+          (t :needed))))
 
 (defun archive-ask-section (kind word section)
   "Answers to the keys of one SECTION, in their order."

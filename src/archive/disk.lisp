@@ -35,6 +35,15 @@
   #+sbcl (zerop (archive-c-call "access" sb-alien:int (sb-alien:c-string name) (sb-alien:int 2)))
   #-sbcl (progn name t))
 
+(defun archive-hard-linked-p (name)
+  "Whether the file NAME has another name as well: a new file in its place would split the two."
+  #+sbcl (multiple-value-bind (found device inode mode links) (sb-unix:unix-stat name)
+           (declare (ignore device inode mode))
+           (and found (> links 1)))
+  #-sbcl (zerop (archive-shell-status
+                 (format nil "test \"$(stat -L -c %h -- ~a)\" -gt 1 2>/dev/null"
+                         (archive-shell-quoted name)))))
+
 (defun archive-copy-mode (from to)
   "Gives the file TO the permissions and, where it may be, the owner of FROM."
   #+sbcl (multiple-value-bind (found device inode mode links uid gid) (sb-unix:unix-stat from)
@@ -170,6 +179,9 @@ says no at the end."
   "The file NAME has BYTES as its content afterwards, or is what it was: nil when UNCHANGED-P
 said no, else an error."
   (archive-ignore-size-limit)
-  (when (and (archive-exists-p name) (not (archive-may-write-p name)))
-    (core-error "it is read-only"))
+  (when (archive-exists-p name)
+    (unless (archive-may-write-p name) (core-error "it is read-only"))
+    (when (archive-hard-linked-p name)
+      (core-error "the file has a second name (a hard link), and a new file would part the two; ~
+                   make one of them a symbolic link, or give result = .. another file")))
   (core-unhurried (lambda () (archive-put-file name bytes unchanged-p))))

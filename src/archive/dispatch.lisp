@@ -7,12 +7,12 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/decimals" "archive/steps"))
+  (core-require "archive/call" "archive/decimals" "archive/steps" "archive/options"))
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
-        (*core-progress* *core-progress*) (*core-too-large* nil)
+        (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
         (*core-cheaper* (archive-cheaper name arguments)))
     (multiple-value-bind (value text)
         (core-caught (lambda () (archive-in-time name arguments)))
@@ -74,7 +74,7 @@
 
 (defun archive-called (name arguments)
   (multiple-value-bind (positional options)
-      (archive-split-arguments (archive-exact-decimals arguments))
+      (archive-split-arguments (archive-exact-decimals (archive-general-arguments arguments)))
     (let ((public (gethash name *core-publics*)))
       (cond ((and (null positional) (core-public-kinds public))
              (archive-ask public options))
@@ -107,6 +107,7 @@
   (let ((call (archive-new-call public archive (archive-kind archive))))
     (archive-give-trailing call trailing)
     (archive-give-options call options)
+    (archive-check-arguments (archive-call-given call) (archive-call-kind call))
     (setq *core-place* (lambda (section key) (archive-place archive section key)))
     call))
 
@@ -115,10 +116,25 @@
          (call (archive-new-call public nil (car form))))
     (archive-give-positional call (cdr form) positional)
     (archive-give-options call options)
+    (archive-check-arguments (archive-call-given call) (car form))
     (archive-run call)))
+
+(defun archive-call-names (call)
+  "All names in what CALL was given and in its description, heads of functions too."
+  (let ((names '()))
+    (flet ((note (part)
+             (cond ((archive-symbol-p part) (pushnew part names))
+                   ((and (consp part) (consp (car part)) (archive-symbol-p (caar part)))
+                    (pushnew (caar part) names)))))
+      (loop for value being the hash-values of (archive-call-given call)
+            do (archive-map-parts #'note value))
+      (when (archive-call-archive call)
+        (archive-map-parts #'note (archive-description (archive-call-archive call)))))
+    names))
 
 (defun archive-run (call)
   "The value of the call's target, computed in the guard; new steps are saved."
+  (setq *core-names* (archive-call-names call))
   (core-guarded (archive-call-facts call)
                 (lambda ()
                   (let ((target (core-public-name (archive-call-public call))))

@@ -9,7 +9,8 @@
   (core-require "archive/keys" "archive/types" "archive/sections"))
 
 (defstruct archive
-  path         ; as the user gave it; nil for a description list
+  path         ; as the user gave it, or as file_search found it; nil for a description list
+  found        ; true where file_search found it
   text         ; the file's text
   parts        ; its sections, as archive-split returns them
   kind         ; "mechanical", ...

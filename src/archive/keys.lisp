@@ -4,8 +4,8 @@
 ;;; doc/archive.md all come from here; plain data, no Maxima in it. A row is (name type default
 ;;; help question), the help a format's control without arguments. The default is text as it
 ;;; would stand in the archive; nil where the key may be absent; :required; (:when key value)
-;;; required if that key has that value; (:unless key) required if that is absent; (:with key
-;;; text) a default that makes sense beside that key only.
+;;; required if that key has that value; (:unless key [text]) required if that is absent, else of
+;;; the default text; (:with key text) a default that makes sense beside that key only.
 
 (in-package :maxima)
 
@@ -41,8 +41,15 @@
      ("coordinates" :names :required "generalized coordinates" "Coordinates"))
     (("system" ("lagrangian"))
      ("coordinates" :names :required "generalized coordinates" "Coordinates"))
-    (("system" ("equations" "poisson"))
+    (("system" ("equations"))
      ("variables" :names :required "the variables" "Variables"))
+    (("system" ("poisson"))
+     ("algebra" :algebra nil
+      "a Lie algebra; its variables are those below, in this order" "Lie algebra")
+     ("bracket" :skew (:unless "algebra")
+      "the matrix of brackets {x_i, x_j}, instead of an algebra" "Matrix of brackets")
+     ("variables" :names (:unless "algebra" "[M1, M2, M3, g1, g2, g3]")
+      "the variables" "Variables"))
 
     (("system" :all)
      ("parameters" :facts "[]"
@@ -114,11 +121,6 @@
      ("multipliers" :names nil
       "names of the multipliers mu_j; mu0, mu1, ... unless given" "Names of the multipliers"))
     (("system" ("poisson"))
-     ("bracket" :skew (:unless "algebra")
-      "the matrix of brackets {x_i, x_j}" "Matrix of brackets")
-     ("algebra" :algebra nil
-      "a Lie algebra instead; its variables are M1, M2, M3, g1, g2, g3 in this order"
-      "Lie algebra")
      ("hamiltonian" :expression :required "Hamilton's function" "Hamiltonian"))
     (("system" ("lagrangian" "poisson"))
      ("integrals" :assignments "[]" "known first integrals, by name" "First integrals"))
@@ -242,7 +244,7 @@ asked."
   "The default of KEY as text, or nil."
   (let ((default (archive-key-default key)))
     (cond ((stringp default) default)
-          ((and (consp default) (eq (first default) :with)) (third default)))))
+          ((and (consp default) (member (first default) '(:with :unless))) (third default)))))
 
 (defun archive-overrulable-p (key)
   "Whether an option of a call may overrule KEY: all of [system] but the count of sections."
@@ -286,7 +288,8 @@ asked."
            (format nil "required if `~a = ~a`" (second default) (third default)))
           ((eq (first default) :with)
            (format nil "`~a`, beside `~a`" (third default) (second default)))
-          (t (format nil "required without `~a`" (second default))))))
+          (t (format nil "required without `~a`~@[, else `~a`~]" (second default)
+                     (third default))))))
 
 (defun archive-print-keys-table (stream)
   "The table in markdown, a part for each section."

@@ -176,3 +176,39 @@ brings."
                (core-fault "system" '$values
                            "~a is ~a and has no fixed value; that at the start belongs into start"
                            (core-spelling name) what)))))
+
+;;; What the names of a system must have: an equation for each variable, a place in L
+
+(defun archive-derivative-names (value)
+  "The names whose time derivatives are the left sides of the equations VALUE."
+  (mapcar #'second (archive-lefts value)))
+
+(defun archive-check-equations (description)
+  (let ((variables (cdr ($core_get description '$variables)))
+        (rated (archive-derivative-names ($core_get description '$equations))))
+    (flet ((fault (names text)
+             (when names
+               (core-fault "system" '$equations text
+                           (mapcar #'core-spelling names)))))
+      (fault (remove-if (lambda (x) (member x variables)) rated)
+             "there are equations for ~{~a~^, ~}, not among the variables; add them there")
+      (fault (remove-if (lambda (x) (member x rated)) variables)
+             "there are no equations for ~{~a~^, ~}; a parameter is no variable"))))
+
+(defun archive-check-coordinates (description)
+  "A coordinate that occurs nowhere in what the equations are made of has the equation 0 = 0."
+  (let* ((used (loop for key in '($lagrangian $rayleigh $forces $constraints $nonholonomic)
+                     append (archive-names-in ($core_get description key 0))))
+         (coordinates (cdr ($core_get description '$coordinates)))
+         (absent (remove-if (lambda (q) (member q used)) coordinates)))
+    (cond ((null absent))
+          ((= (length absent) (length coordinates))
+           (core-fault "system" '$lagrangian "lagrangian contains none of the coordinates ~{~a~^, ~}"
+                       (mapcar #'core-spelling coordinates)))
+          (t (core-warn "coordinates that occur nowhere else: ~{~a~^, ~}"
+                        (mapcar #'core-spelling absent))))))
+
+(defun archive-check-agreement (kind description)
+  (archive-check-parameters description)
+  (cond ((string= kind "equations") (archive-check-equations description))
+        (($core_get description '$lagrangian nil) (archive-check-coordinates description))))

@@ -11,7 +11,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/tokens" "archive/simplify" "archive/shapes" "archive/elements"
-                "archive/makers"))
+                "archive/makers" "archive/meant"))
 
 (defparameter *archive-open-functions* 1000 "The most functions that an archive may leave open.")
 
@@ -260,6 +260,7 @@
           ((eq (reader-kind reader) :open)
            (multiple-value-bind (arguments places) (archive-parse-elements! reader :close ")")
              (archive-function-call reader name from arguments places)))
+          ((eq (reader-kind reader) :open-list) (archive-fault-subscript reader name))
           ((string= name "true") t)
           ((string= name "false") nil)
           ((member (reader-kind reader) '(:quote))
@@ -267,6 +268,12 @@
                           "found ', expected an operator: a time derivative's ' stands directly ~
                            after the name"))
           (t (core-read-symbol (archive-symbol name))))))
+
+(defun archive-fault-subscript (reader name)
+  (archive-fault reader (reader-from reader)
+                 "found [ after ~a, expected an operator: functions are written with ( ), and ~
+                  names have no subscripts~a"
+                 name (archive-meant-advice name)))
 
 (defun archive-primed-name (reader name primes from)
   "The time derivative of order PRIMES."
@@ -325,7 +332,8 @@
   (when (member name '("true" "false" "inf") :test #'string=)
     (archive-fault reader from "~a is not a function" name))
   (when (archive-maxima-function-p name)
-    (archive-fault reader from "found the function ~a of Maxima; an archive cannot call it" name))
+    (archive-fault reader from "found the function ~a of Maxima; an archive cannot call it~a" name
+                   (archive-meant-advice name)))
   (unless (assoc name (reader-calls reader) :test #'string=)
     (when (> (length (reader-calls reader)) *archive-open-functions*)
       (archive-fault reader from "more than ~d functions" *archive-open-functions*))
@@ -385,5 +393,5 @@ line column)."
         unless (member name known :test #'string=)
           do (archive-fault-at file line column
                                "found the function ~a, which is neither one of the archive's nor ~
-                                named in `functions'"
-                               name)))
+                                named in `functions'~a"
+                               name (archive-meant-advice name))))

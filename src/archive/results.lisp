@@ -3,26 +3,16 @@
 ;;; the result was computed from, `own' that of its value: the first tells a stale result, the
 ;;; second one edited by hand. A result edited by hand is used as it stands; one that is stale as
 ;;; well is an error, because nobody can tell which of the two is meant.
-;;; Look first at archive-result, which reads, and archive-result-text, which writes.
+;;; Look first at archive-result, which reads, and archive-result-lines, which writes.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/check" "archive/digest" "archive/store"))
-
-(defparameter *archive-result-keys*
-  '("from" "own" "options" "form" "check" "left_out" "partial")
-  "Keys of a result section that are no part of its value.")
+  (core-require "archive/check" "archive/store"))
 
 (defparameter *archive-result-width* 96)
 
 ;; Digests
-
-(defun archive-own-digest (parts)
-  "The digest of the value whose PARTS are (key . text)."
-  (archive-digest (format nil "~{~a~%~}"
-                          (loop for (key . text) in parts
-                                collect (format nil "~a=~a" key (archive-bare-text text))))))
 
 (defun archive-counts-p (section key kind keys)
   "Whether KEY of SECTION counts among KEYS; \"*\" stands for all that makes the structure of the
@@ -53,39 +43,9 @@ options as texts."
 
 ;; Reading
 
-(defun archive-result-name (name) (concatenate 'string "result " name))
-
-(defun archive-result-section (archive name)
-  (and (archive-parts archive)
-       (archive-find-section (archive-parts archive) (archive-result-name name))))
-
-(defun archive-has-result (archive name)
-  (and (archive-result-section archive name) t))
-
-(defun archive-stored-options (archive name)
-  "The options that the stored result NAME was made with, as text; \"\" for none."
-  (let ((entry (archive-find-entry (archive-result-section archive name) "options")))
-    (if entry (archive-entry-parsed entry) "")))
-
-(defun archive-value-entries (section)
-  "The entries of a result SECTION that make its value."
-  (remove-if (lambda (entry) (member (entry-key entry) *archive-result-keys* :test #'string=))
-             (section-entries section)))
-
-(defun archive-section-own (section)
-  "The digest of the value that stands in SECTION."
-  (archive-own-digest (mapcar (lambda (entry) (cons (entry-key entry) (archive-entry-text entry)))
-                              (archive-value-entries section))))
-
-(defun archive-stated-digest (section key)
-  (let ((entry (archive-find-entry section key)))
-    (and entry (archive-entry-text entry))))
-
-(defun archive-edited-digest (archive name)
-  "The digest of the result NAME when it was edited by hand, else nil."
-  (let* ((section (archive-result-section archive name))
-         (own (and section (archive-section-own section))))
-    (and own (not (equal own (archive-stated-digest section "own"))) own)))
+(defun archive-stored-section (archive name options)
+  "The section with the result NAME of OPTIONS in the file of ARCHIVE, or nil."
+  (and (archive-parts archive) (archive-slot (archive-parts archive) name options)))
 
 (defun archive-check-result-calls (archive entry)
   "Functions in a result are the user's own, or such that the derivation brought; Maxima's own
@@ -116,21 +76,27 @@ commands are none."
                                                   (archive-entry-result archive name entry)))
                               entries)))))
 
-(defun archive-fault-edited-and-stale (archive name section)
-  (core-error "~a:~d: [result ~a] was edited by hand, and what it was computed from has changed ~
-               since; delete the section, or give it back its old value"
-              (archive-path archive) (section-line section) name))
+(defun archive-section-abbreviations (section)
+  "The abbreviations that the value in SECTION was written in, equations, or nil."
+  (let* ((entry (archive-find-entry section "abbreviations"))
+         (value (and entry (archive-entry-parsed entry :relations t))))
+    (and (archive-list-p value) (every #'archive-equation-p (cdr value)) (cdr value))))
 
-(defun archive-result (archive name from)
-  "Two values: the stored result NAME, and :fresh, :edited, :stale or :absent. FROM is the digest
-it should have."
-  (let* ((section (archive-result-section archive name))
-         (edited (and section (archive-edited-digest archive name)))
+(defun archive-fault-edited-and-stale (archive section)
+  (core-error "~a:~d: [~a] was edited by hand, and what it was computed from has changed ~
+               since; delete the section, or give it back its old value"
+              (archive-path archive) (section-line section) (section-name section)))
+
+(defun archive-result (archive name from &optional (options ""))
+  "Two values: the stored result NAME of OPTIONS, and :fresh, :edited, :stale or :absent. FROM is
+the digest it should have."
+  (let* ((section (archive-stored-section archive name options))
+         (edited (and section (archive-edited-digest section)))
          (stated (and section (archive-stated-digest section "from")))
          (stale (and stated (string/= stated from))))
     (cond ((null section) (values nil :absent))
           ((null (archive-value-entries section)) (values nil :stale))
-          ((and edited stale) (archive-fault-edited-and-stale archive name section))
+          ((and edited stale) (archive-fault-edited-and-stale archive section))
           (stale (values nil :stale))
           (t (values (archive-section-value archive name section)
                      (if (or edited (null stated)) :edited :fresh))))))
@@ -213,28 +179,27 @@ doubles."
   (archive-spell (substitute-if #\Space (lambda (c) (< (char-code c) 32))
                                 (format nil "~{~a~^; ~}" notes))))
 
-(defun archive-result-text (name value from options form checks left-out)
-  "The lines of the section [result NAME], without the last line end."
+(defun archive-result-lines (name value &key from (options "") form checks left-out
+                                          abbreviations passed)
+  "The lines below the header of the result NAME, without the last line end."
+  (declare (ignore passed))
   (let ((parts (archive-value-parts value (archive-numerical-p name))))
-    (format nil "[result ~a]~%from = ~a~%own = ~a~%~
-                 ~@[options = ~a~%~]~@[form = ~a~%~]~@[check = ~a~%~]~@[left_out = ~a~%~]~{~a~^~%~}"
-            name from (archive-own-digest parts)
-            (and options (string/= options "") (archive-spell options))
+    (format nil "from = ~a~%own = ~a~%~@[options = ~a~%~]~@[form = ~a~%~]~@[check = ~a~%~]~
+                 ~@[left_out = ~a~%~]~@[abbreviations = ~a~%~]~{~a~^~%~}"
+            from (archive-own-digest parts)
+            (and (string/= options "") (archive-spell options))
             form
             (and checks (archive-note-text checks))
             (and left-out (archive-note-text left-out))
+            (and abbreviations (archive-spell (archive-list abbreviations)))
             (loop for (key . text) in parts collect (format nil "~a = ~a" key text)))))
 
 (defun archive-save (archive results &optional elsewhere)
-  "Writes RESULTS, a list of (name :value :from :options :form :checks
-:left-out), into ARCHIVE's file or
-ELSEWHERE, at one stroke.
-True when done; else a warning, and the file is as it was."
-  (archive-save-sections
+  "Writes RESULTS, a list of (name value . keys of archive-result-lines), into ARCHIVE's file or
+ELSEWHERE, at one stroke. True when done; else a warning, and the file is as it was."
+  (archive-save-results
    archive elsewhere
    (lambda ()
-     (loop for (name . parts) in results
-           collect (cons (archive-result-name name)
-                         (archive-result-text name (getf parts :value) (getf parts :from)
-                                              (getf parts :options) (getf parts :form)
-                                              (getf parts :checks) (getf parts :left-out)))))))
+     (loop for (name value . parts) in results
+           collect (list name :options (getf parts :options "") :passed (getf parts :passed)
+                         :lines (apply #'archive-result-lines name value parts))))))

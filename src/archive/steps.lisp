@@ -12,7 +12,10 @@
   keys     ; keys of [system] the quantity depends on; "*" is the whole structure
   extras)  ; arguments, options and hand-edited results it depends on, as text
 
-(defstruct archive-step name value from options form checks left-out)
+(defstruct archive-step name value from options form checks left-out abbreviations)
+
+(defparameter *archive-program-form* '("form" $program)
+  "The condition of a rule that gives a program.")
 
 (defun archive-rule (call name)
   (core-find-rule name (archive-call-kind call)
@@ -31,9 +34,9 @@
         (t (eq (archive-option call (first condition) nil) (second condition)))))
 
 (defun archive-edited-p (call name)
-  (and (archive-stored-p call name)
-       (archive-same-options-p call name)
-       (archive-edited-digest (archive-call-archive call) name)))
+  "The digest of the stored result NAME when it was edited by hand, else nil."
+  (let ((section (archive-own-section call name)))
+    (and section (archive-edited-digest section))))
 
 (defun archive-input-name (input) (if (consp input) (car input) input))
 
@@ -74,7 +77,7 @@
   (multiple-value-bind (value given) (gethash name (archive-call-given call))
     (let ((rule (archive-rule call name)))
       (cond (given
-             (push (format nil "~a = ~a" name (archive-spell value)) (archive-need-extras need)))
+             (push (archive-option-text name value) (archive-need-extras need)))
             ((equal name "description") (push "*" (archive-need-keys need)))
             ((null rule) (push name (archive-need-keys need)))
             (t (dolist (input (archive-rule-sources rule))
@@ -102,34 +105,42 @@
 
 (defun archive-add-edited (call name need)
   "A result edited by hand is itself something to depend on."
-  (when (and (archive-stored-p call name) (archive-same-options-p call name))
-    (let ((edited (archive-edited-digest (archive-call-archive call) name)))
-      (when edited (push (format nil "~a edited ~a" name edited) (archive-need-extras need))))))
+  (let ((edited (archive-edited-p call name)))
+    (when edited (push (format nil "~a edited ~a" name edited) (archive-need-extras need)))))
 
-(defun archive-stored-p (call name)
+(defun archive-own-section (call name)
+  "The section with the result NAME of this call's arguments and options, or nil."
   (and (archive-call-archive call) (archive-path (archive-call-archive call))
        (gethash name *core-publics*)
-       (archive-has-result (archive-call-archive call) name)))
+       (archive-stored-section (archive-call-archive call) name (archive-options-of call name))))
 
 (defun archive-edited-extra-p (extra) (search " edited sha256:" extra))
 
 (defun archive-options-of (call name)
   "The arguments and options of the call that NAME depends on, as one text."
-  (format nil "~{~a~^, ~}"
-          (sort (remove-if #'archive-edited-extra-p
-                           (copy-list (archive-need-extras (archive-needs call name))))
-                #'string<)))
+  (let* ((need (archive-needs call name))
+         (extras (remove-if #'archive-edited-extra-p (archive-need-extras need))))
+    (format nil "~{~a~^, ~}"
+            (sort (union extras (archive-overruled-texts call need) :test #'string=) #'string<))))
 
-(defun archive-same-options-p (call name)
-  "Whether the stored result NAME was made with this call's options."
-  (string= (archive-stored-options (archive-call-archive call) name)
-           (archive-options-of call name)))
+(defun archive-overruled-texts (call need)
+  "The keys of [system] that the call overrules and that count for NEED, as texts."
+  (loop with kind = (archive-call-kind call)
+        for (key . value) in (archive-call-overruled call)
+        when (archive-counts-p "system" key kind (archive-counted-keys need))
+          collect (archive-option-text key value)))
+
+(defun archive-option-text (name value)
+  (format nil "~a = ~a" name (archive-spell value)))
+
+(defun archive-counted-keys (need)
+  "The keys of [system] that count in `from': what is assumed of the parameters always does."
+  (union '("parameters") (archive-need-keys need) :test #'equal))
 
 (defun archive-digest-of (call name)
   "The digest `from' of the result NAME: what it was computed from."
   (let ((need (archive-needs call name)))
-    (archive-from-digest (archive-call-archive call)
-                         (union '("parameters") (archive-need-keys need) :test #'equal)
+    (archive-from-digest (archive-call-archive call) (archive-counted-keys need)
                          (sort (remove-if (lambda (extra)
                                             (eql 0 (search (format nil "~a edited " name) extra)))
                                           (copy-list (archive-need-extras need)))
@@ -155,7 +166,7 @@ default."
   "Two values: the value of NAME from the archive or by a rule, and whether there is one."
   (let ((rule (archive-rule call name)))
     (cond ((equal name "description") (values (archive-structure call) t))
-          ((archive-stored-p call name) (archive-stored-value call name rule))
+          ((archive-own-section call name) (archive-stored-value call name rule))
           (rule (archive-rule-value call name rule))
           (t (archive-key-value call name)))))
 
@@ -176,45 +187,21 @@ as the size of what is neglected, and count in no digest: a formula must not dep
 
 (defun archive-stored-value (call name rule)
   "The stored result NAME where it is still good, else a new one."
-  (if (archive-same-options-p call name)
-      (archive-stored-value-or-new call name rule)
-      (progn (archive-note-other-options call name) (archive-rule-value call name rule))))
-
-(defun archive-stored-value-or-new (call name rule)
   (multiple-value-bind (value state)
-      (archive-result (archive-call-archive call) name (archive-digest-of call name))
+      (archive-result (archive-call-archive call) name (archive-digest-of call name)
+                      (archive-options-of call name))
     (ecase state
       (:fresh (if (archive-option call "result" nil)
                   (archive-rule-value call name rule)
-                  (values (archive-in-full call value) t)))
+                  (values (archive-in-full call name value) t)))
       (:edited
-       (core-note "using [result ~a] as it was edited by hand" name)
-       (values (archive-in-full call value) t))
-      (:stale (core-note "the description has changed since [result ~a] was computed; computing ~
-                          it again"
-                         name)
+       (core-note "using [~a] as it was edited by hand"
+                  (section-name (archive-own-section call name)))
+       (values (archive-in-full call name value) t))
+      (:stale
+       (core-note "the description has changed since [~a] was computed; computing it again"
+                  (section-name (archive-own-section call name)))
        (archive-rule-value call name rule)))))
-
-(defun archive-named-options (text)
-  (if (string= text "") "without options" (format nil "with ~a" text)))
-
-(defun archive-note-other-options (call name)
-  "Says that the stored result NAME is not what is asked for, and what becomes of it."
-  (core-note "[result ~a] was computed ~a; computing it ~a~:[~; and leaving the section, which ~
-              was edited by hand~]"
-             name
-             (archive-named-options (archive-stored-options (archive-call-archive call) name))
-             (archive-named-options (archive-options-of call name))
-             (archive-edited-digest (archive-call-archive call) name)))
-
-(defun archive-keeps-section-p (call name)
-  "Whether a stored section NAME stays although another result was computed: one of other options
-that was edited by hand,
-or that this call only passes through."
-  (and (archive-stored-p call name)
-       (not (archive-same-options-p call name))
-       (or (archive-edited-digest (archive-call-archive call) name)
-           (string/= name (core-public-name (archive-call-public call))))))
 
 (defun archive-rule-value (call name rule)
   (cond ((rule-same rule) (values (archive-value call (rule-same rule)) t))
@@ -259,10 +246,13 @@ or that this call only passes through."
           (t (core-require (car *core-abbreviator*))
              (mfuncall (cdr *core-abbreviator*) value (cons '(mlist simp) abbreviations))))))
 
-(defun archive-in-full (call value)
-  "VALUE without the archive's abbreviations, the last defined first."
-  (dolist (equation (reverse (archive-abbreviations call)) value)
-    (setq value ($substitute (caddr equation) (cadr equation) value))))
+(defun archive-in-full (call name value)
+  "VALUE, the stored result NAME, without the abbreviations it was written in, the last defined
+first: those that its section states, else the archive's."
+  (let* ((stated (archive-section-abbreviations (archive-own-section call name)))
+         (abbreviations (or stated (archive-abbreviations call))))
+    (dolist (equation (reverse abbreviations) value)
+      (setq value ($substitute (caddr equation) (cadr equation) value)))))
 
 (defun archive-report-time (call name began)
   (when (eq (archive-option call "verbose" nil) t)
@@ -280,25 +270,33 @@ where there is only one."
           (t (core-spelling (if (eq form '$auto) *core-level* form))))))
 
 (defun archive-note-step (call name value level)
-  (when (and (archive-call-archive call) (archive-path (archive-call-archive call))
-             (or (archive-option call "result" nil) (not (archive-keeps-section-p call name))))
-    (push (make-archive-step :name name :value (archive-abbreviated call value)
-                             :from (archive-digest-of call name)
-                             :options (archive-options-of call name)
-                             :form level
-                             :checks (reverse *core-checks*) :left-out (reverse *core-left-out*))
-          (archive-call-new call))))
+  (when (and (archive-call-archive call) (archive-path (archive-call-archive call)))
+    (let ((short (archive-abbreviated call value)))
+      (push (make-archive-step
+             :name name :value short :from (archive-digest-of call name)
+             :options (archive-options-of call name) :form level
+             :checks (reverse *core-checks*) :left-out (reverse *core-left-out*)
+             :abbreviations (unless (equal short value) (archive-abbreviations call)))
+            (archive-call-new call)))))
+
+(defun archive-save-default (call)
+  "What file_search found is not the user's to write in, unless he says so."
+  (or (archive-option call "result" nil) (not (archive-found (archive-call-archive call)))))
 
 (defun archive-save-steps (call)
   "Writes the sections of all steps computed in this call, unless save = false."
-  (when (and (archive-call-new call) (archive-option call "save" t))
+  (when (and (archive-call-new call) (archive-option call "save" (archive-save-default call)))
     (archive-save (archive-call-archive call)
-                  (mapcar (lambda (step)
-                            (list (archive-step-name step)
-                                  :value (archive-step-value step) :from (archive-step-from step)
-                                  :options (archive-step-options step)
-                                  :form (archive-step-form step)
-                                  :checks (archive-step-checks step)
-                                  :left-out (archive-step-left-out step)))
+                  (mapcar (lambda (step) (archive-step-result call step))
                           (reverse (archive-call-new call)))
                   (archive-option call "result" nil))))
+
+(defun archive-step-result (call step)
+  "STEP as archive-save takes it."
+  (list (archive-step-name step) (archive-step-value step)
+        :from (archive-step-from step) :options (archive-step-options step)
+        :form (archive-step-form step) :checks (archive-step-checks step)
+        :left-out (archive-step-left-out step)
+        :abbreviations (archive-step-abbreviations step)
+        :passed (string/= (archive-step-name step)
+                          (core-public-name (archive-call-public call)))))

@@ -1,19 +1,19 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Writing into an archive: sections are replaced where they stand, new ones go to the end,
+;;; Writing into an archive: results are replaced where they stand, new ones go to the end,
 ;;; everything else stays byte for byte. The file is read again just before; if its description
 ;;; changed meanwhile nothing is written. A result that cannot be written is still returned: all
 ;;; troubles end in one warning.
-;;; Look first at archive-save-sections, at the end.
+;;; Look first at archive-save-results, at the end.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/check" "archive/disk" "archive/sections"))
+  (core-require "archive/check" "archive/disk" "archive/slots"))
 
 (defparameter *archive-write-tries* 20
   "How often a write begins anew when another process wrote in between.")
 
-;; Text with sections replaced
+;; Text with results in it
 
 (defun archive-file-lines (text newline)
   "TEXT, whose lines end in a newline, with the line ends of the file."
@@ -31,39 +31,44 @@
                  (if (archive-ends-with-p text (concatenate 'string newline newline)) "" newline)
                  section newline)))
 
-(defun archive-with-section (text name section file)
-  "TEXT of FILE with SECTION, text under its header, in the place of the section NAME, or at the
-end."
-  (let* ((sheet (archive-split text file :parse nil))
-         (lines (archive-file-lines section (sheet-newline sheet)))
-         (old (archive-find-section sheet name)))
-    (if old
-        (concatenate 'string (subseq text 0 (section-start old)) lines
-                     (subseq text (section-end old)))
-        (archive-with-new-section text lines (sheet-newline sheet)))))
+(defun archive-section-text (header lines newline)
+  "The section HEADER with LINES below it, with the line ends of the file."
+  (archive-file-lines (format nil "[~a]~%~a" header lines) newline))
 
-(defun archive-with-sections (text sections file)
-  "TEXT with all SECTIONS, a list of (name . text)."
-  (loop for (name . section) in sections
-        do (setq text (archive-with-section text name section file)))
-  text)
+(defun archive-without-section (text section)
+  "TEXT without SECTION, its last line end, and the blank line before it with which it came."
+  (let* ((newline (position #\Newline text :start (section-end section)))
+         (end (if newline (1+ newline) (length text)))
+         (before (subseq text 0 (section-start section)))
+         (line-end (archive-line-end-of text)))
+    (concatenate 'string
+                 (if (archive-ends-with-p before (concatenate 'string line-end line-end))
+                     (subseq before 0 (- (length before) (length line-end)))
+                     before)
+                 (subseq text end))))
+
+(defun archive-with-result (text result file)
+  "TEXT of FILE with RESULT, (name :options :lines :passed), in its slot: where it stands, or at
+the end. A step passed through takes no new slot but the one without options."
+  (destructuring-bind (name &key (options "") lines passed) result
+    (let* ((sheet (archive-split text file :parse nil))
+           (newline (sheet-newline sheet))
+           (old (archive-slot sheet name options)))
+      (cond (old (concatenate 'string (subseq text 0 (section-start old))
+                              (archive-section-text (section-name old) lines newline)
+                              (subseq text (section-end old))))
+            ((and passed (string/= options "")) text)
+            (t (multiple-value-bind (header oldest) (archive-room-for sheet name options)
+                 (archive-with-new-section
+                  (if oldest (archive-without-section text oldest) text)
+                  (archive-section-text header lines newline) newline)))))))
+
+(defun archive-with-results (text results file)
+  "TEXT with all RESULTS."
+  (dolist (result results text)
+    (setq text (archive-with-result text result file))))
 
 ;; Has the description changed meanwhile?
-
-(defun archive-bare-text (text)
-  "TEXT without comments and without blanks outside strings: what counts of a value."
-  (let ((end (length text)) (position 0))
-    (with-output-to-string (out)
-      (loop while (< position end)
-            do (let ((c (char text position)))
-                 (case c
-                   (#\" (let ((close (min (1- end) (archive-string-end text position end))))
-                          (write-string text out :start position :end (1+ close))
-                          (setq position close)))
-                   (#\# (setq position (1- (or (position #\Newline text :start position) end))))
-                   ((#\Space #\Tab #\Newline #\Return))
-                   (t (write-char c out)))
-                 (incf position))))))
 
 (defun archive-description-lines (sheet)
   "What counts of the description in SHEET: sections, keys and values without comments and
@@ -84,11 +89,11 @@ blanks; not the title."
 
 ;; One write
 
-(defun archive-text-with-results (archive text sections target)
+(defun archive-text-with-results (archive text results target)
   "The new text of TARGET, whose text is TEXT."
   (when (equal target (archive-path archive))
     (archive-check-same-description archive text))
-  (archive-with-sections text sections target))
+  (archive-with-results text results target))
 
 (defun archive-fresh-text (archive)
   "The text of a new file for the results of ARCHIVE."
@@ -96,12 +101,12 @@ blanks; not the title."
           (archive-file-name (archive-path archive))
           *archive-version* (archive-kind archive)))
 
-(defun archive-write-once (archive target sections)
-  "Writes SECTIONS into TARGET; nil when another process changed it in the meantime."
+(defun archive-write-once (archive target results)
+  "Writes RESULTS into TARGET; nil when another process changed it in the meantime."
   (let* ((file (archive-followed target))
          (old (and (archive-exists-p file) (archive-file-bytes file)))
          (text (if old (archive-text-of-bytes old target) (archive-fresh-text archive)))
-         (new (archive-text-with-results archive text sections target)))
+         (new (archive-text-with-results archive text results target)))
     (when (archive-replace-file file (archive-utf8 new)
                                 (lambda () (if old (equalp old (archive-file-bytes file))
                                                (not (archive-exists-p file)))))
@@ -114,9 +119,9 @@ blanks; not the title."
     (setf (archive-text archive) text
           (archive-parts archive) (archive-split text target :parse nil))))
 
-(defun archive-write-sections (archive target sections)
+(defun archive-write-results (archive target results)
   (archive-with-lock ((archive-followed target))
-    (or (loop repeat *archive-write-tries* thereis (archive-write-once archive target sections))
+    (or (loop repeat *archive-write-tries* thereis (archive-write-once archive target results))
         (core-error "another program keeps changing it"))))
 
 ;; Troubles become a warning
@@ -128,13 +133,13 @@ blanks; not the title."
       (maxima-$error () (core-error-text))
       (error (condition) (remove #\Newline (princ-to-string condition))))))
 
-(defun archive-save-sections (archive elsewhere sections)
-  "Writes what the function SECTIONS returns, a list of (name . text), into ARCHIVE's file or
-ELSEWHERE. True when done."
+(defun archive-save-results (archive elsewhere results)
+  "Writes what the function RESULTS returns, a list as archive-with-result takes them, into
+ARCHIVE's file or ELSEWHERE. True when done."
   (let ((target (or elsewhere (archive-path archive))))
     (when target
-      (let ((trouble (archive-failure (lambda () (archive-write-sections archive target
-                                                                         (funcall sections))))))
+      (let ((trouble (archive-failure (lambda () (archive-write-results archive target
+                                                                        (funcall results))))))
         (when trouble (core-warn "the result is not saved in ~a: ~a" target trouble))
         (not trouble)))))
 

@@ -117,3 +117,11 @@ keeps its value."
   (subseq (core-words (list name)) 0 1))
 
 (defun $core_textp (e) (stringp e))
+
+;;; Names that a result brings of itself must not be those of the system
+
+(defvar *core-names* '() "All names in the arguments and the description of this call.")
+
+(defun $core_taken (name)
+  "Whether NAME stands anywhere in the system of this call."
+  (and (member name *core-names*) t))

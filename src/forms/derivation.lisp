@@ -34,7 +34,9 @@
         (algebra-order-kernels)
         (let ((quotients (mapcar #'algebra-evaluate skeletons))
               (rates (mapcar #'algebra-evaluated-rates rates)))
-          (when (every (lambda (quotient) (forms-free-below-p quotient (append q v))) quotients)
+          (when (and (forms-kernels-free-of v) ; sines and cosines are among them only now
+                     (every (lambda (quotient) (forms-free-below-p quotient (append q v)))
+                            quotients))
             (make-forms-derivation
              :function (first quotients) :dissipation (second quotients)
              :forces (cddr quotients)

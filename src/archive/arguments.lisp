@@ -1,0 +1,152 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The shapes of arguments and options in calls on expressions. What a function is given it
+;;; computes with: a list where a formula is due, or a name that stands twice, would give an answer
+;;; to another question, silently. What does not fit is refused here, in one sentence that says
+;;; which argument, what was found and what to type. Look first at archive-check-argument.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/keys" "archive/types" "archive/names" "archive/speller"))
+
+(defun archive-general-arguments (arguments)
+  "ARGUMENTS with what `rat' and `taylor' made of them in general form."
+  (mapcar (lambda (argument)
+            (if (archive-contains-p argument 'mrat) ($totaldisrep argument) argument))
+          arguments))
+
+;;; Types
+
+(defparameter *archive-argument-types*
+  '((:formula archive-as-formula "a formula")
+    (:shape archive-as-shape "a formula, or a list, equation or matrix of formulas")
+    (:variables archive-as-variables "a list of names, such as [phi, theta]")
+    (:variable archive-as-variable "a name, such as lambda")
+    (:motion archive-as-movement "a list such as [theta = 0, 'diff(theta,t) = w]")
+    (:solution archive-as-solution "a list such as [theta = 0, 'diff(theta,t) = w]")
+    (:rates archive-as-system "a list of equations such as ['diff(x,t) = y, 'diff(y,t) = -x]")
+    (:integrals archive-as-integrals "a list of integrals such as [V0 = x^2 + y^2]")
+    (:branches archive-as-branches "a list such as [i1 = L1, i2 = L2]")
+    (:square archive-as-square "a matrix, such as matrix([1, 0], [0, 2])"))
+  "As *archive-types*, for what is typed in the session: velocities are 'diff(q,t), names may have
+subscripts, and a formula may stand for a law of its own.")
+
+(defparameter *archive-argument-names*
+  '((:formula "Lagrangian" "MixedPotential" "polynomial" "lagrangian" "hamiltonian")
+    (:shape "expression" "f" "g")
+    (:variables "coordinates" "variables")
+    (:variable "lambda" "u")
+    (:motion "motion")
+    (:solution "solution")
+    (:rates "equations")
+    (:integrals "integrals")
+    (:branches "inductances" "capacitances")
+    (:square "A" "M" "S" "W" "D" "G" "P"))
+  "Arguments by their types; of the others the type is that of the key of [system].")
+
+(defun archive-argument-type (name kind)
+  "The type of the argument or option NAME in a call of KIND, or nil. K is a function to some
+functions and a matrix to others."
+  (let ((key (find-if (lambda (key) (and (string= (archive-key-name key) name)
+                                         (string= (archive-key-section key) "system")))
+                      *archive-keys*)))
+    (cond ((string= name "K") (if (string= kind "forces") :square :formula))
+          ((car (find-if (lambda (row) (member name (cdr row) :test #'string=))
+                         *archive-argument-names*)))
+          (key (archive-key-type key)))))
+
+(defun archive-argument-row (type)
+  (or (assoc type *archive-argument-types*) (assoc type *archive-types*)))
+
+(defun archive-check-argument (name value kind)
+  "An error unless VALUE can be the argument or option NAME in a call of KIND."
+  (let ((row (archive-argument-row (archive-argument-type name kind))))
+    (when row
+      (let ((trouble (catch 'archive-unfitd (funcall (second row) value) nil)))
+        (when trouble
+          (core-error "~a must be ~a, found ~a~:[; ~a~;~]" name (third row)
+                      (archive-argument-shown value) (string= trouble "") trouble))))))
+
+(defun archive-argument-shown (value)
+  "VALUE as Maxima spells it, cut after sixty letters."
+  (let ((text (if (stringp value) (format nil "~s" value) (core-words (list value)))))
+    (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text)))
+
+(defun archive-formula-p (value)
+  (and (archive-expression-p value)
+       (not (archive-head-p value 'lambda 'mqapply '$set 'mcond))
+       (not (member value '($inf $minf $infinity $und $ind)))))
+
+(defun archive-as-formula (value)
+  (cond ((archive-formula-p value) value)
+        ((archive-equation-p value) (archive-unfit "write it without ="))
+        (t (archive-unfit))))
+
+(defun archive-as-shape (value)
+  (if (or (archive-list-p value) (archive-equation-p value) (archive-head-p value '$matrix))
+      (mapc #'archive-as-shape (cdr value))
+      (archive-as-formula value)))
+
+(defun archive-variable-p (value)
+  "A name, plain or with subscripts."
+  (or (and (archive-symbol-p value) (not (eq value '$t)))
+      (and (consp value) (consp (car value)) (member 'array (cdar value)) t)))
+
+(defun archive-as-variable (value)
+  (if (and (archive-variable-p value) (atom value)) value (archive-unfit)))
+
+(defun archive-a-variable (value)
+  (cond ((archive-variable-p value) value)
+        ((eq value '$t) (archive-unfit "t is the time"))
+        ((and (archive-equation-p value) (archive-variable-p (second value)))
+         (archive-unfit "give the name alone"))
+        (t (archive-unfit "~a is not a name" (archive-argument-shown value)))))
+
+(defun archive-as-variables (value)
+  (unless (archive-items value) (archive-unfit))
+  (archive-check-distinct (mapcar #'archive-a-variable (archive-items value))))
+
+(defun archive-time-derivative-p (value)
+  (and (archive-head-p value '%derivative) (archive-variable-p (second value))
+       (eq (third value) '$t) (null (cddddr value))))
+
+(defun archive-as-movement (value)
+  "Equations for coordinates and derivatives of coordinates, none twice."
+  (dolist (item (archive-items value))
+    (unless (archive-equation-p item)
+      (archive-unfit "~a is not an equation" (archive-argument-shown item)))
+    (unless (archive-time-derivative-p (second item)) (archive-a-variable (second item)))
+    (archive-formula-inside (third item)))
+  (archive-check-distinct (archive-lefts value)))
+
+(defun archive-as-solution (value)
+  (if (archive-items value) (archive-as-movement value) (archive-unfit)))
+
+(defun archive-formula-inside (value)
+  (unless (archive-formula-p value)
+    (archive-unfit "~a is not a formula" (archive-argument-shown value))))
+
+(defun archive-as-system (value)
+  "Equations, or formulas that vanish, some with derivatives."
+  (unless (archive-items value) (archive-unfit))
+  (dolist (item (archive-items value))
+    (mapc #'archive-formula-inside (if (archive-equation-p item) (cdr item) (list item))))
+  (unless (archive-contains-p value '%derivative)
+    (archive-unfit "there is no derivative 'diff(x,t) in them")))
+
+(defun archive-as-integrals (value)
+  (dolist (item (archive-items value))
+    (archive-formula-inside (if (archive-equation-p item) (third item) item))))
+
+(defun archive-as-branches (value)
+  "Names of currents or voltages with their inductances or capacitances."
+  (dolist (item (archive-items value))
+    (unless (archive-equation-p item)
+      (archive-unfit "~a is not an equation" (archive-argument-shown item)))
+    (archive-a-variable (second item))
+    (archive-formula-inside (third item)))
+  (archive-check-distinct (archive-lefts value)))
+
+(defun archive-as-square (value)
+  (unless (and (archive-head-p value '$matrix) (cdr value)) (archive-unfit))
+  (dolist (row (cdr value)) (mapc #'archive-formula-inside (cdr row))))

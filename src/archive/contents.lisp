@@ -1,0 +1,188 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What stands in arguments that have the right shape: spellings that cannot mean what they say,
+;;; as x(t) for a coordinate, Cos[th], inf; names that do not occur in what they belong to, where
+;;; equations 0 = 0 would come. Description lists are looked at for the spellings too.
+;;; Look first at archive-check-arguments.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/arguments" "archive/meant"))
+
+(defun archive-map-parts (function value)
+  "Calls FUNCTION on VALUE and all its parts."
+  (funcall function value)
+  (unless (atom value)
+    (dolist (part (cdr value)) (archive-map-parts function part))))
+
+(defun archive-occurs-p (x value)
+  (or (equal x value)
+      (and (consp value)
+           (or (and (consp x) (archive-head-p value (caar x)) (equal (cdr x) (cdr value)))
+               (some (lambda (part) (archive-occurs-p x part)) (cdr value))))))
+
+;;; Names that move
+
+(defun archive-differentiated-names (value)
+  (let ((names '()))
+    (archive-map-parts (lambda (part)
+                         (when (archive-time-derivative-p part)
+                           (pushnew (second part) names :test #'equal)))
+                       value)
+    names))
+
+(defun archive-moving-arguments (given)
+  "The names that move in a call: coordinates, variables, what is differentiated or has a motion."
+  (let ((names '()))
+    (maphash (lambda (name value)
+               (setq names
+                     (append (cond ((member name '("coordinates" "variables") :test #'string=)
+                                    (cdr value))
+                                   ((member name '("motion" "solution") :test #'string=)
+                                    (archive-lefts value)))
+                             (archive-differentiated-names value)
+                             names)))
+             given)
+    (remove-if-not #'archive-variable-p names)))
+
+;;; Spellings
+
+(defun archive-strange-part (part moving)
+  "What to say of a PART that cannot mean what it says where the names MOVING move, or nil."
+  (cond ((member part '($inf $minf $infinity $und $ind)) "is no number")
+        ((atom part) nil)
+        ((archive-meant-function part)
+         (format nil "is no function of Maxima; ~a?" (archive-meant-text part)))
+        ((member 'array (cdar part))
+         (and (some (lambda (x) (archive-occurs-p x (cons '(mlist) (cdr part)))) moving)
+              "is a name with a subscript, and constant; a function is written with ( )"))
+        ((and (member (caar part) moving) (cdr part))
+         (format nil "has no place here: write ~a for the coordinate and 'diff(~:*~a,t) for its ~
+                      velocity"
+                 (core-spelling (caar part))))))
+
+(defun archive-check-spellings (value moving fault)
+  "Calls FAULT with a text for the first strange part of VALUE."
+  (archive-map-parts
+   (lambda (part)
+     (let ((trouble (archive-strange-part part moving)))
+       (when trouble
+         (funcall fault (format nil "~a ~a" (archive-argument-shown part) trouble)))))
+   value))
+
+(defun archive-check-description-spellings (description)
+  "An error for the first strange spelling in a DESCRIPTION list; its own functions are its own."
+  (let ((own (append (cdr ($core_get description '$functions '((mlist))))
+                     (mapcar #'caar (archive-lefts ($core_get description '$laws '((mlist)))))))
+        (moving (mapcar #'car (archive-moving-names description))))
+    (labels ((check (section equations)
+               (loop for (nil key value) in equations
+                     do (if (stringp key)
+                            (check key (cdr value))
+                            (look section key value))))
+             (look (section key value)
+               (archive-check-spellings
+                (archive-without-functions own value) moving
+                (lambda (text) (core-fault section key "~a: ~a" (archive-key-text key) text)))))
+      (check "system" (cdr description)))))
+
+(defun archive-without-functions (own value)
+  "VALUE with the arguments alone of the functions OWN."
+  (cond ((atom value) value)
+        ((member (caar value) own)
+         (cons '(mlist) (mapcar (lambda (part) (archive-without-functions own part))
+                                (cdr value))))
+        (t (cons (car value) (mapcar (lambda (part) (archive-without-functions own part))
+                                     (cdr value))))))
+
+;;; Names that do not occur
+
+(defparameter *archive-functions-of*
+  '(("Lagrangian" "coordinates" "rayleigh" "forces" "constraints" "nonholonomic")
+    ("K" "variables")
+    ("equations" "variables"))
+  "Arguments in which all the names of another one should occur, and others where they may.")
+
+(defun archive-check-occurrence (given)
+  "An error where none of the names occurs in what they belong to, a warning where some do not."
+  (loop for (function list . others) in *archive-functions-of*
+        for names = (cdr (gethash list given))
+        for value = (gethash function given)
+        do (when (and names value)
+             (let* ((all (cons value (mapcar (lambda (name) (gethash name given)) others)))
+                    (absent (remove-if (lambda (x) (archive-occurs-p x (cons '(mlist) all)))
+                                       names)))
+               (cond ((= (length absent) (length names))
+                      (archive-fault-constant function value names))
+                     (absent
+                      (core-warn "not in ~a: ~{~a~^, ~}" function
+                                 (mapcar #'archive-argument-shown absent))))))))
+
+(defun archive-fault-constant (name value variables)
+  (if (symbolp value)
+      (core-error "~a is the name ~a, which has no value; give it one, or type the function" name
+                  (archive-argument-shown value))
+      (core-error "~a contains none of ~{~a~^, ~}, found ~a" name
+                  (mapcar #'archive-argument-shown variables) (archive-argument-shown value))))
+
+(defun archive-check-derivatives (given kind)
+  "Only variables are differentiated in equations, and nothing in a function of variables."
+  (let* ((variables (cdr (gethash "variables" given)))
+         (name (if (string= kind "function") "K" "equations"))
+         (other (and variables
+                     (set-difference (archive-differentiated-names (gethash name given))
+                                     (if (string= name "K") '() variables) :test #'equal))))
+    (when other
+      (core-error "~a: found 'diff(~a,t)~a" name (archive-argument-shown (car other))
+                  (if (string= name "K")
+                      " in a function of the variables"
+                      (format nil "; add ~a to the variables"
+                              (archive-argument-shown (car other))))))))
+
+(defun archive-check-potential (given)
+  "A potential that is a name alone, which no state has."
+  (let ((P (gethash "MixedPotential" given)))
+    (when (and (archive-symbol-p P)
+               (loop for name in '("inductances" "capacitances")
+                     never (member P (archive-lefts (gethash name given)))))
+      (archive-fault-constant "MixedPotential" P '()))))
+
+(defun archive-check-integrals (given)
+  "A constant is no integral."
+  (let ((variables (cdr (gethash "variables" given))))
+    (dolist (item (cdr (gethash "integrals" given)))
+      (let ((e (if (archive-equation-p item) (third item) item)))
+        (unless (some (lambda (x) (archive-occurs-p x e)) variables)
+          (core-error "integrals: ~a is a constant" (archive-argument-shown item)))))))
+
+;;; All of a call
+
+(defparameter *archive-real-arguments*
+  '("Lagrangian" "K" "MixedPotential" "equations" "integrals" "solution" "rayleigh" "forces"))
+
+(defun archive-given-pairs (given)
+  "The table GIVEN as a list (name . value), in one order on every Lisp."
+  (sort (loop for name being the hash-keys of given using (hash-value value)
+              collect (cons name value))
+        #'string< :key #'car))
+
+(defun archive-check-real (name value)
+  (when (and (member name *archive-real-arguments* :test #'string=)
+             (archive-occurs-p '$%i value))
+    (core-error "~a: found %i in ~a; real expressions are wanted" name
+                (archive-argument-shown value))))
+
+(defun archive-check-arguments (given kind)
+  "An error for the first of the arguments and options GIVEN, a table, that a call of KIND cannot
+take."
+  (let ((pairs (archive-given-pairs given)) (moving nil))
+    (loop for (name . value) in pairs do (archive-check-argument name value kind))
+    (setq moving (archive-moving-arguments given))
+    (loop for (name . value) in pairs
+          do (archive-check-spellings value moving
+                                      (lambda (text) (core-error "~a: ~a" name text)))
+             (archive-check-real name value)))
+  (archive-check-derivatives given kind)
+  (archive-check-occurrence given)
+  (archive-check-potential given)
+  (archive-check-integrals given))

@@ -1,0 +1,245 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Options of a call: their names, what their values may be, and whether they do anything. Beside
+;;; the common ones an option must occur among what the target needs: an input or a condition of
+;;; one of the rules by which it is computed, or a key of [system] that one of them reads. Any
+;;; other would be without effect, silently, and is refused; a misspelt one with the nearest name.
+;;; Look first at archive-give-options, then at archive-taken-options.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/call" "archive/steps" "archive/arguments"))
+
+(defun archive-option-name (equation)
+  "The name of an option. `verbose', `functions' and `values' are variables of Maxima's own and
+arrive as their values."
+  (let ((left (cadr equation)))
+    (cond ((stringp left) left)
+          ((and (member left '(nil t)) (eq left $verbose)) "verbose")
+          ((eq left $functions) "functions")
+          ((eq left $values) "values")
+          ((and left (symbolp left) (not (eq left t))) (core-spelling left))
+          (t (core-error "an option has the form name = value, found ~a; if the name has a value ~
+                          in your session, quote it: 'name = value~:[~; (`on' is true in Maxima, ~
+                          `off' is false)~]"
+                         (core-words (list equation)) (member left '(nil t)))))))
+
+(defun archive-option-fits (type value)
+  (ecase type
+    (:truth (member value '(nil t)))
+    (:seconds (and (mnump value) (not (mnegp value))))
+    (:form (member value '($auto $canonical $factored $program)))
+    (:function (member value '($lagrange $routh $hamilton)))
+    (:file (stringp value))))
+
+(defun archive-check-option (option value)
+  (let ((row (find-if (lambda (row) (member option (cddr row) :test #'string=))
+                      *archive-option-types*)))
+    (unless (or (null row) (archive-option-fits (first row) value))
+      (core-error "the option ~a is ~a, found ~a" option (second row) (core-words (list value))))))
+
+(defun archive-check-program-form (call)
+  "An error unless there is a program of what is called."
+  (let* ((name (core-public-name (archive-call-public call)))
+         (rule (core-find-rule name (archive-call-kind call)
+                               (lambda (condition) (equal condition *archive-program-form*)))))
+    (unless (and rule (equal (rule-given rule) *archive-program-form*))
+      (core-error "form = program is for ~{~a~^, ~}; this function has none"
+                  (archive-program-names)))))
+
+(defun archive-option-of (condition)
+  "The option that CONDITION, (name value), asks for, as an equation."
+  (list '(mequal) (core-symbol (first condition)) (second condition)))
+
+(defun archive-program-serves-p (name arguments)
+  "Whether NAME has a program too, and the form is left to us."
+  (and arguments
+       (member name (archive-program-names) :test #'string=)
+       (loop for equation in (nth-value 1 (archive-split-arguments arguments))
+             never (and (eq (cadr equation) (core-symbol "form"))
+                        (not (eq (caddr equation) '$auto))))))
+
+(defun archive-program-names ()
+  (sort (loop for name being the hash-keys of *core-rules* using (hash-value rules)
+              when (find *archive-program-form* rules :key #'rule-given :test #'equal)
+                collect name)
+        #'string<))
+
+
+;;; Which options there are
+
+(defun archive-overrulable-keys (kind)
+  "Names of the keys of [system] that a call may overrule."
+  (mapcar #'archive-key-name (archive-option-keys kind)))
+
+(defun archive-rules-for (name kind)
+  "The rules for NAME in archives of KIND, whatever their conditions."
+  (remove-if-not (lambda (rule) (core-rule-fits rule kind (constantly t)))
+                 (gethash name *core-rules*)))
+
+(defun archive-walk (name next)
+  "NAME and all names that one comes to from it by NEXT, a function of a name."
+  (let ((seen '()))
+    (labels ((walk (name)
+               (unless (member name seen :test #'equal)
+                 (push name seen)
+                 (mapc #'walk (mapcar #'archive-input-name (funcall next name))))))
+      (walk name))
+    seen))
+
+(defun archive-reachable (call name)
+  "Names of the quantities, options and keys that may count for NAME, whatever the options say."
+  (archive-walk name (lambda (name)
+                       (unless (archive-argument-p call name)
+                         (loop for rule in (archive-rules-for name (archive-call-kind call))
+                               append (archive-rule-sources rule))))))
+
+(defun archive-touched (call name)
+  "Names of the quantities, options and keys that count for NAME in this CALL: by the rules that
+its options choose, and the conditions of those that they do not."
+  (archive-walk name (lambda (name) (archive-next-touched call name))))
+
+(defun archive-next-touched (call name)
+  (unless (nth-value 1 (gethash name (archive-call-given call)))
+    (let ((rule (archive-rule call name)))
+      (append (when rule (archive-rule-sources rule))
+              (loop for other in (archive-rules-for name (archive-call-kind call))
+                    append (archive-condition-sources (rule-given other)))))))
+
+(defun archive-option-counts-p (call option names)
+  "Whether OPTION counts where the quantities NAMES do."
+  (or (member option (archive-always-options call) :test #'string=)
+      (member option names :test #'equal)
+      (and (archive-call-archive call)
+           (member "description" names :test #'equal)
+           (archive-counts-p "system" option (archive-call-kind call) '("*")))))
+
+(defun archive-always-options (call)
+  "Options that every call takes."
+  (append *archive-common-options* '("parameters" "abbreviations")
+          (when (archive-call-archive call)
+            (append '("functions") (when (archive-path (archive-call-archive call)) '("result"))))))
+
+(defun archive-known-options (call)
+  (remove-duplicates
+   (append (core-public-options (archive-call-public call)) '("form")
+           (archive-always-options call)
+           (archive-overrulable-keys (archive-call-kind call)))
+   :test #'string=))
+
+(defun archive-taken-options (call)
+  "Names of the options that the function takes in archives of this kind, or in this form, sorted."
+  (let ((names (archive-reachable call (core-public-name (archive-call-public call)))))
+    (sort (remove-if-not (lambda (option)
+                           (and (archive-option-counts-p call option names)
+                                (not (archive-argument-p call option))))
+                         (archive-known-options call))
+          #'string<)))
+
+(defun archive-argument-p (call name)
+  "Whether NAME is an argument of the call, given before the options."
+  (and (null (archive-call-archive call)) (nth-value 1 (gethash name (archive-call-given call)))))
+
+;;; Options given
+
+(defun archive-check-name (call name)
+  "An error unless the call takes an option NAME."
+  (let ((taken (archive-taken-options call)))
+    (unless (member name taken :test #'string=)
+      (core-error "~a; the options are ~{~a~^, ~}"
+                  (archive-refused-option call name taken) taken))))
+
+(defun archive-refused-option (call name taken)
+  "What to say of an option NAME that is not one of those TAKEN."
+  (let ((near (archive-nearest name taken)))
+    (cond ((archive-argument-p call name) (format nil "~a is an argument already" name))
+          ((archive-option-elsewhere-p call name)
+           (format nil "the option ~a has no effect in this call" name))
+          (near (format nil "there is no option ~a; did you mean ~a?" name near))
+          (t (format nil "there is no option ~a" name)))))
+
+(defun archive-option-elsewhere-p (call name)
+  "Whether NAME is an option of the function in other calls, or a key of [system]."
+  (member name (append (core-public-options (archive-call-public call))
+                       *archive-common-options* '("form" "result")
+                       (loop for kind in *archive-kinds*
+                             append (archive-overrulable-keys kind)))
+          :test #'string=))
+
+(defun archive-give-options (call options)
+  "Options become quantities; a key of [system] among them overrules the archive's."
+  (let ((names (mapcar #'archive-option-name options)))
+    (loop for equation in options
+          for (name . later) on names
+          do (when (member name later :test #'string=)
+               (core-error "the option ~a is given twice" name))
+             (archive-check-name call name)
+             (archive-check-option name (caddr equation))
+             (when (and (string= name "form") (eq (caddr equation) '$program))
+               (archive-check-program-form call)))
+    (archive-give-all call (loop for equation in options
+                                 for name in names
+                                 collect (cons name (caddr equation))))
+    (archive-check-effects call names))
+  (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil)))
+
+(defun archive-check-effects (call names)
+  "An error for the first of the options NAMES that nothing in this call asks for."
+  (when (set-difference names (archive-always-options call) :test #'string=)
+    (let ((touched (archive-touched call (core-public-name (archive-call-public call)))))
+      (dolist (name names)
+        (unless (archive-option-counts-p call name touched)
+          (core-error "the option ~a has no effect beside the others; leave it out" name))))))
+
+(defun archive-give-all (call pairs)
+  "PAIRS, (name . value) each, as quantities. Keys of an archive are overruled at one stroke, since
+one may need the other; a key that a rule builds on, as rayleigh where there are dampers, is given
+to the rule only."
+  (let* ((kind (archive-call-kind call)) (archive (archive-call-archive call))
+         (keys (and archive (remove-if-not (lambda (pair)
+                                             (member (car pair) (archive-overrulable-keys kind)
+                                                     :test #'string=))
+                                           pairs))))
+    (when keys (archive-overrule call keys))
+    (loop for (name . value) in pairs
+          do (when (and (null archive) (string= name "parameters"))
+               (archive-give-facts call value))
+             (unless (and (assoc name keys :test #'string=)
+                          (core-find-rule name kind (constantly nil)))
+               (archive-give call name value)))))
+
+(defun archive-give-facts (call value)
+  "What is assumed of parameters in a call on expressions."
+  (archive-check-argument "parameters" value (archive-call-kind call))
+  (setf (archive-call-facts call) (remove-if-not #'archive-relation-p (cdr value))))
+
+;;; Keys that are overruled
+
+(defun archive-overruled-group (group pairs)
+  "GROUP with the statements key = value of PAIRS instead of its own."
+  (let ((copy (copy-archive-group group)))
+    (setf (archive-group-statements copy)
+          (append (remove-if (lambda (statement)
+                               (assoc (archive-statement-key statement) pairs :test #'equal))
+                             (archive-group-statements group))
+                  (loop for (name . value) in pairs
+                        collect (make-archive-statement :key name :value value))))
+    copy))
+
+(defun archive-overruled (archive pairs)
+  "ARCHIVE as if its [system] had the keys and values of PAIRS, checked like any other."
+  (let ((other (archive-check-groups
+                (archive-path archive) (archive-text archive) (archive-parts archive)
+                (mapcar (lambda (group)
+                          (if (string= (archive-group-section group) "system")
+                              (archive-overruled-group group pairs)
+                              group))
+                        (archive-groups archive)))))
+    (setf (archive-found other) (archive-found archive))
+    other))
+
+(defun archive-overrule (call pairs)
+  (let ((archive (archive-overruled (archive-call-archive call) pairs)))
+    (setf (archive-call-overruled call) pairs
+          (archive-call-archive call) archive
+          (archive-call-facts call) (archive-facts (archive-description archive)))))
