@@ -14,7 +14,7 @@ it.")
 (defvar *core-faces* '() "Faces loaded: (name . version).")
 
 (defun core-load-registers ()
-  (dolist (room '("forms" "linmodel" "circuits" "analysis" "numerics"))
+  (loop for (room) in *core-rooms* do
     (when (core-existing-file (format nil "~asrc/~a/register.lisp" *core-root* room))
       (core-require (concatenate 'string room "/register")))))
 
