@@ -65,7 +65,9 @@ Returns their names."
   (apply #'core-require parts)
   '$done)
 
-(dolist (file '("rooms" "cache"))
-  (load (core-pathname (format nil "~asrc/core/~a.lisp" *core-root* file))))
+;; What these do once or twice at a start costs less than to compile them.
+(let (#+sbcl (sb-ext:*evaluator-mode* :interpret))
+  (dolist (file '("rooms" "cache"))
+    (load (core-pathname (format nil "~asrc/core/~a.lisp" *core-root* file)))))
 
 (core-require "core/messages" "core/register" "core/guard" "core/faces")
