@@ -28,9 +28,9 @@
              (values program nil)))))
 
 (defun archive-tried (name arguments)
-  (core-caught (lambda () (archive-called name arguments))))
+  (core-caught (lambda () (core-clean-call #'archive-called (cons name arguments)))))
 
-(defun archive-called (name arguments)
+(defun archive-called (name &rest arguments)
   (multiple-value-bind (positional options) (archive-split-arguments arguments)
     (let ((public (gethash name *core-publics*)))
       (cond ((and (null positional) (core-public-kinds public))

@@ -37,9 +37,11 @@
 (defun core-load-mac (source)
   "Loads Maxima text; its functions stay off the user's list `functions', so kill(all) leaves them.
 Returns their names."
-  (let (($functions (list '(mlist simp))) ($values (copy-list $values)) ($load_pathname nil))
-    ($batchload (core-pathname source))
-    (mapcar #'caar (cdr $functions))))
+  (core-clean
+   (lambda ()
+     (let (($functions (list '(mlist simp))) ($values (copy-list $values)) ($load_pathname nil))
+       ($batchload (core-pathname source))
+       (mapcar #'caar (cdr $functions))))))
 
 (defun core-part-alive (part)
   (let ((names (gethash part *core-loaded*)))
