@@ -130,6 +130,31 @@ compiled progv.)"
 (defun core-own-properties (plist)
   (core-property-subset plist (complement #'core-lasting-p)))
 
+(defun core-internal-p (symbol)
+  "Whether SYMBOL is one of Maxima's own that its table of properties at birth leaves out: the inside
+of abs, [..], lambda, true, ..."
+  (and (not (find (char (symbol-name symbol) 0) "$%"))
+       (not (nth-value 1 (core-born-properties symbol)))))
+
+(defun core-internal-properties (symbol)
+  "The properties of a core-internal-p SYMBOL without what the user gave it: those that kill()
+removes, rules before their simplifier, the derivative of abs."
+  (let ((plist (core-property-subset
+                (symbol-plist symbol)
+                (lambda (key) (not (or (member key opers)
+                                       (member key '(mprops bindtest nonarray evfun evflag special
+                                                     mode mainvar)))))))
+        (rules (mget symbol 'oldrules)))
+    (cond ((car (last rules)) (setf (getf plist 'operators) (car (last rules))))
+          (rules (remf plist 'operators)))
+    (when (eq symbol 'mabs) (setf (getf plist 'grad) '((x) ((mtimes) x ((mexpt) ((mabs) x) -1)))))
+    plist))
+
+(defun core-clean-properties (symbol)
+  (if (core-internal-p symbol)
+      (core-internal-properties symbol)
+      (copy-tree (core-born-properties symbol))))
+
 (defun core-changed-p (symbol)
   "Whether SYMBOL of Maxima has other properties than at birth."
   (not (equal (core-own-properties (symbol-plist symbol))
@@ -154,6 +179,47 @@ compiled progv.)"
      (append (remove-if (lambda (s) (or (null s) (nth-value 1 (core-born-properties s))))
                         (append named (mapcar (lambda (s) (get s 'noun)) named)))
              (remove-if-not #'core-changed-p *builtin-symbols*)))))
+
+;;; Functions. Maxima forgets its own one when the user defines one of the same name or traces it.
+
+(defun core-lisp-functions ()
+  "Maxima's functions that are there now: (symbol . function)."
+  (loop for symbol in *builtin-symbols*
+        append (loop for name in (list symbol (getf (core-born-properties symbol) 'impl-name))
+                     when (and name (fboundp name) (not (macro-function name))
+                               (functionp (symbol-function name)))
+                       collect (cons name (or (mget name 'trace-oldfun)
+                                              (symbol-function name))))))
+
+(defvar *core-born-functions* (core-lisp-functions) "As they were when the packages were loaded.")
+
+(defun core-say-lost-functions ()
+  "One line where the user had replaced functions of Maxima before the packages were loaded."
+  (let ((lost (loop for symbol in *builtin-symbols*
+                    when (and (getf (core-born-properties symbol) 'translated)
+                              (not (fboundp symbol)))
+                      collect (core-spelling symbol))))
+    (when lost
+      (core-say (format nil "dynarch: ~{~a~^, ~}: defined anew in this session, which Maxima cannot ~
+                             undo; results may fail. Load the packages first" lost)))))
+
+(defun core-with-functions (functions function)
+  "Calls FUNCTION while each (symbol . definition) of FUNCTIONS holds; a symbol without a definition
+has none."
+  (let ((saved (loop for (name) in functions
+                     collect (cons name (and (fboundp name) (symbol-function name))))))
+    (flet ((put (functions)
+             (loop for (name . definition) in functions
+                   do (if definition
+                          (setf (symbol-function name) definition)
+                          (fmakunbound name)))))
+      (put functions)
+      (unwind-protect (funcall function) (put saved)))))
+
+(defun core-replaced-functions ()
+  (loop for (name . definition) in *core-born-functions*
+        unless (and (fboundp name) (eq (symbol-function name) definition))
+          collect (cons name definition)))
 
 (defun core-callable-p (symbol)
   "Whether SYMBOL is the name of a rule or of a translated function of the user: a function of Lisp."
@@ -181,17 +247,15 @@ compiled progv.)"
                     (remove name *core-kept-functions* :key #'car)))))))
 
 (defun core-with-born-symbols (operators function)
-  "Calls FUNCTION while no symbol has a property that the user gave it."
+  "Calls FUNCTION while no symbol has a property or function that the user gave it."
   (let* ((touched (core-touched-symbols operators))
          (saved (mapcar (lambda (s) (cons s (symbol-plist s))) touched))
-         (callable (mapcar (lambda (s) (cons s (symbol-function s)))
-                           (remove-if-not #'core-callable-p touched))))
-    (dolist (s touched) (core-merge-properties s (copy-tree (core-born-properties s))))
-    (loop for (s) in callable do (fmakunbound s))
+         (functions (append (core-replaced-functions)
+                            (mapcar #'list (remove-if-not #'core-callable-p touched)))))
+    (dolist (s touched) (core-merge-properties s (core-clean-properties s)))
     (core-put-kept-functions)
-    (unwind-protect (funcall function)
-      (loop for (s . plist) in saved do (core-merge-properties s plist))
-      (loop for (s . function) in callable do (setf (symbol-function s) function)))))
+    (unwind-protect (core-with-functions functions function)
+      (loop for (s . plist) in saved do (core-merge-properties s plist)))))
 
 ;;; Orders of names: ordergreat and orderless read a name as another one, which sorts first or last
 
