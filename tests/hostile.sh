@@ -23,21 +23,22 @@ Equilibria("equilibria.txt", where = [])
 END
 }
 
-# session FOLDER BEGINNING: makes all calls on copies in FOLDER; the answer to the n-th call is in FOLDER/n.
+# session FOLDER BEGINNING: makes all calls on copies in FOLDER; what is said and answered to the n-th call is in FOLDER/n.
 session() {
   mkdir "$1" && cp "$root"/examples/*.txt "$1"
   {
-    printf 'load("linmodel")$ load("circuits")$ load("analysis")$ display2d: false$\n%s\n' "$2"
-    calls | awk '{ printf "print(\"== %d\")$ errcatch(%s)$ print(string(%%))$\n", NR, $0 }'
+    printf 'display2d: false$ load("linmodel")$ load("circuits")$ load("analysis")$ load("%s/plainly.lisp")$\n%s\n' "$here" "$2"
+    calls | awk '{ printf "plainly(\"%d\", errcatch(%s))$\n", NR, $0 }'
   } >"$1/session.mac"
   (cd "$1" && "$root/tools/maxima" --very-quiet <session.mac >answers 2>&1)
-  (cd "$1" && awk '/^== [0-9]+ *$/ { file = $2; next } file { print >file }' answers)
+  (cd "$1" && awk '/^== [0-9]+$/ { printf "%s", text >$2; text = ""; next } { text = text $0 "\n" }' answers)
 }
 
 session clean '' &
 session hostile "load(\"$here/hostile.mac\")\$"
 wait
 
+check "the hostile session is made" "$(grep -c 'debugmode(true)' hostile/answers)" 0
 check "the sessions reach their end" "$(calls | wc -l) $(grep -c '^== ' hostile/answers)" \
   "$(grep -c '^== ' clean/answers) $(grep -c '^== ' clean/answers)"
 check "the archives are read without warnings" \

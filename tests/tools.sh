@@ -90,7 +90,7 @@ END
 cat >maxima-5.47.0/Makefile <<'END'
 all:
 	echo built >>$(STRAW)/builds
-	sleep 1
+	sleep $${STRAW_SLOW:-1}
 	test ! -e $(STRAW)/break
 install:
 	mkdir -p $(DESTDIR)/dynarch/bin $(DESTDIR)/dynarch/share/info
@@ -131,8 +131,9 @@ check "two at once succeed" "$first $second" "0 0"
 check "and build once" "$(grep -c built builds)" 1
 
 fresh killed
-"$tools/setup" >/dev/null 2>&1 & setup=$!
-sleep 1
+rm -f builds
+STRAW_SLOW=60 "$tools/setup" >/dev/null 2>&1 & setup=$!
+while [ ! -e builds ]; do sleep 0.1; done
 kill -KILL $setup
 check "a killed build is no Maxima" "$(ls "$XDG_CACHE_HOME/dynarch" | grep -c '^maxima')" 0
 

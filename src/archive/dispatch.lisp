@@ -70,9 +70,11 @@
 
 (defun archive-tried (name arguments)
   "The call; one that fills the memory ends here, so that its program can be tried."
-  (core-caught (lambda () (core-watched nil (lambda () (archive-called name arguments))))))
+  (core-caught
+   (lambda ()
+     (core-watched nil (lambda () (core-clean-call #'archive-called (cons name arguments)))))))
 
-(defun archive-called (name arguments)
+(defun archive-called (name &rest arguments)
   (multiple-value-bind (positional options)
       (archive-split-arguments (archive-exact-decimals (archive-general-arguments arguments)))
     (let ((public (gethash name *core-publics*)))

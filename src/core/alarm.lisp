@@ -15,7 +15,7 @@
 (defparameter *core-undivided*
   '(mbind-doit munbind munlocal errlfun1 mset kill1 addf remf1 cntxt kcntxt contextmark
     $killcontext $supcontext $newcontext $activate $deactivate add2lnc mputprop mremprop
-    core-restore core-free-memory)
+    core-restore core-free-memory core-change-global)
   "Functions that change lists of Maxima in several steps.")
 
 (defparameter *core-undivided-lisp* '("PUTHASH" "REHASH" "REMHASH" "CLRHASH" "INTERN" "COMPILE")

@@ -14,7 +14,7 @@ it.")
 (defvar *core-faces* '() "Faces loaded: (name . version).")
 
 (defun core-load-registers ()
-  (dolist (room '("forms" "linmodel" "circuits" "analysis" "numerics"))
+  (loop for (room) in *core-rooms* do
     (when (core-existing-file (format nil "~asrc/~a/register.lisp" *core-root* room))
       (core-require (concatenate 'string room "/register")))))
 
@@ -31,6 +31,7 @@ capture it.)"
 (defun $core_face (face version &rest names)
   "States a package: its name, its version, and the names of its public functions."
   (core-load-registers)
+  (unless *core-faces* (core-say-lost-functions))
   (dolist (name names) (core-install name))
   (core-help-install)
   (setq *core-faces* (acons face version (remove face *core-faces* :key #'car :test #'string=)))

@@ -109,29 +109,41 @@
               (t (unkind (cadr fact) (caddr fact)))))))
   (contextmark))
 
+(defun core-context-marks ()
+  "((context . mark) ..) of the visible contexts: how often each is seen."
+  (contextmark)
+  (mapcar (lambda (place) (cons place (zl-get place 'cmark))) (core-visible-contexts)))
+
+(defun core-enter-context (place marks)
+  "PLACE becomes the current context, above the global one, and the only visible one."
+  (loop for (other) in marks do (putprop other 0 'cmark))
+  (setq $context place context place current place)
+  (cmark place))
+
+(defun core-leave-context (place users marks)
+  "The USERS context is the current one again, the others are as visible as MARKS say."
+  (mapc #'remov (zl-get place 'data))
+  (dolist (key '(data cmark subc)) (zl-remprop place key))
+  (setq $context users context users current users)
+  (loop for (other . mark) in marks do (putprop other mark 'cmark)))
+
 (defun core-call-in-context (place function)
   "Calls FUNCTION in the empty context PLACE, no other one being active."
-  (let ((users $context) (active (cdr $activecontexts)))
+  (let ((users $context) (marks (core-context-marks)))
     (putprop place '($global) 'subc)
     (unwind-protect
          (let (($contexts (list* (car $contexts) place (cdr $contexts)))
                ($activecontexts (list '(mlist))))
-           (setq $context place context place)
-           (contextmark)
-           (mapc #'cunmrk active)
+           (core-enter-context place marks)
            (funcall function))
-      (setq $context users context users)
-      (contextmark)
-      (mapc #'cmark active)
-      (killc place)
-      (setq $context users context users)
-      (contextmark))))
+      (core-leave-context place users marks))))
 
 (defun core-without-session-facts (function)
   "Calls FUNCTION while Maxima's data base knows nothing that the user told it."
   (let ((globals (remove-if-not #'core-users-fact-p (cdr (facts1 '$global)))))
-    (core-change-global globals nil)
-    (unwind-protect (core-call-in-context (gensym "$CONTEXT") function)
+    (unwind-protect
+         (progn (core-change-global globals nil)
+                (core-call-in-context (gensym "$CONTEXT") function))
       (core-change-global (reverse globals) t))))
 
 (defun core-contradicted (facts session)

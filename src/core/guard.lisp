@@ -1,63 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The guard around every computation: option variables at Maxima's own defaults, the user's
-;;; variables and dependencies out of sight, facts in a context of their own, no question asked;
-;;; and everything as it was afterwards, errors included. Maxima's variables are global, so setting
-;;; and restoring their values does nearly all of it.
+;;; The guard around every computation: a clean session, facts in a context of their own, no question
+;;; asked; and everything as it was afterwards, errors included.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/facts"))
+  (core-require "core/session" "core/facts"))
 
 (defvar *core-guarded* nil "True inside the guard.")
-(defvar *core-kept-values* nil
-  "Variables that share packages bound while guarded, with their values: seen inside the guard
-only.")
-
-(defparameter *core-kept-variables*
-  '($linenum $labels $inchar $outchar $linechar $context $contexts $activecontexts $error
-    $error_syms $errormsg $load_pathname $file_search_maxima $file_search_lisp $file_search_demo
-    $file_search_tests $file_search_usage $maxima_userdir $maxima_tempdir $maxima_objdir
-    $features $% $%% $_ $__ $infolists $prompt $linel $stdin $stdout $transcript $debugmode
-    $showtime $lasttime $plot_options $gnuplot_command $gnuplot_view_args $gnuplot_term
-    $gnuplot_out_file $random $version $build_info $ttyoff $gensumnum $testsuite_files
-    $share_testsuite_files $factor_max_degree_print_warning)
-  "Variables that are not options of a computation, or whose change must last.")
-
-(defun core-with-values (names values function)
-  "Calls FUNCTION while NAMES have VALUES, or none where VALUES run out. (GCL cannot load a
-compiled progv.)"
-  (let ((saved (mapcar (lambda (name)
-                         (if (boundp name) (list name (symbol-value name)) (list name)))
-                       names)))
-    (unwind-protect
-         (progn
-           (loop for name in names
-                 do (if values (set name (pop values)) (makunbound name)))
-           (funcall function))
-      (loop for (name . value) in saved
-            do (if value (set name (car value)) (makunbound name))))))
-
-(defun core-information-lists ()
-  "The lists that Maxima keeps of what the user made: functions, rules, options set, ...; and the
-last `piece' of an expression."
-  (remove-if-not #'boundp (cons '$piece (set-difference (cdr $infolists)
-                                                        '($labels $contexts $activecontexts)))))
-
-(defun core-default-options ()
-  "Two lists: option variables that differ from Maxima's defaults, and the defaults; and one whose
-default is to print a line."
-  (let ((names '()) (defaults '()) (kept (append *core-kept-variables* (cdr $infolists))))
-    (maphash (lambda (name default)
-               (when (and (char= (char (string name) 0) #\$) (boundp name)
-                          (not (eq (symbol-value name) default))
-                          (not (equal (symbol-value name) default))
-                          (not (constantp name))
-                          (not (member name kept)))
-                 (push name names)
-                 (push default defaults)))
-             *variable-initial-values*)
-    (values (cons '$factor_max_degree_print_warning names) (cons nil defaults))))
 
 (defun core-refuse-question (message &rest ignored)
   (declare (ignore ignored))
@@ -73,46 +23,13 @@ default is to print a line."
                            (funcall function))
       (setf (symbol-function 'retrieve) asking))))
 
-(defun core-without-dependencies (function)
-  "Calls FUNCTION while no symbol depends on another."
-  (let ((saved (loop for entry in (cdr $dependencies)
-                     collect (cons (caar entry) (mget (caar entry) 'depends)))))
-    (unwind-protect (progn (loop for (name) in saved do (mremprop name 'depends))
-                           (funcall function))
-      (loop for (name . list) in saved do (mputprop name list 'depends)))))
-
-(defun core-put-away (name)
-  "Keeps the value of NAME for the next use of the guard, and unbinds it."
-  (setq *core-kept-values* (acons name (symbol-value name)
-                                  (remove name *core-kept-values* :key #'car)))
-  (makunbound name))
-
-(defun core-hide-new-values (before)
-  "Variables that came into being inside the guard are put away for its next use."
-  (dolist (name (cdr $values))
-    (when (and (boundp name) (not (member name before))) (core-put-away name))))
-
 (defun core-guarded (facts function)
   "The value of FUNCTION in a clean session with FACTS."
   (if *core-guarded*
       (funcall function)
-      (let ((*core-guarded* t) (lists (core-information-lists)) (users (copy-list (cdr $values))))
-        (flet ((clean-values ()
-                 (core-with-values
-                  (append lists users (mapcar #'car *core-kept-values*))
-                  (mapcar (lambda (l) (if (listp (symbol-value l))
-                                          (copy-list (symbol-value l))
-                                          (symbol-value l)))
-                          lists)
-                  (lambda ()
-                    (unwind-protect
-                         (progn
-                           (loop for (name . value) in *core-kept-values* do (set name value))
-                           (core-without-questions (lambda () (core-with-facts facts function))))
-                      (core-hide-new-values users))))))
-          (multiple-value-bind (names defaults) (core-default-options)
-            (core-with-values names defaults
-                              (lambda () (core-without-dependencies #'clean-values))))))))
+      (let ((*core-guarded* t))
+        (core-clean (lambda ()
+                      (core-without-questions (lambda () (core-with-facts facts function))))))))
 
 (defun core-failure-text (condition)
   "What to tell the person of a Lisp error."
