@@ -25,7 +25,8 @@
   (with-algebra-ring
     (let* ((*algebra-exponential-form* (some #'algebra-exponentials-p es))
            (skeletons (mapcar #'algebra-scan es))
-           (rates (mapcar #'algebra-rates-of-kernels xs)))
+           (rates (progn (algebra-collect-multiples)
+                         (mapcar #'algebra-rates-of-kernels xs))))
       (algebra-order-kernels)
       (setq rates (mapcar #'algebra-evaluated-rates rates))
       (loop for skeleton in skeletons
@@ -63,7 +64,8 @@
                    (list (cons (algebra-kernel-variable changing) rate)))))
 
 (defun algebra-unit-rates (unit rate)
-  (let* ((step (algebra-times rate (cons 1 (algebra-unit-denominator unit))))
+  (let* ((inverse (algebra-unit-denominator unit))
+         (step (algebra-times rate (cons (denominator inverse) (numerator inverse))))
          (cosine (algebra-variable (algebra-unit-cosine unit)))
          (sine (and (algebra-unit-sine unit) (algebra-variable (algebra-unit-sine unit))))
          (sign (if (eq (algebra-unit-kind unit) 'circular) -1 1)))

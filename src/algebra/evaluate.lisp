@@ -6,9 +6,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/quotient" "algebra/reduction"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/multiples" "algebra/quotient"
+                "algebra/reduction"))
 
 (defun algebra-order-kernels ()
+  (algebra-collect-multiples)
   (algebra-number-kernels)
   (dolist (kernel (algebra-ring-kernels *algebra-ring*))
     (when (algebra-kernel-degree kernel)

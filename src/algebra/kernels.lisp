@@ -3,7 +3,8 @@
 ;;; The kernels in which expressions are polynomials: symbols, opaque functions, nouns, roots,
 ;;; exponentials exp(u) and, for each angle u, the pair c = cos(u), s = sin(u), bound by
 ;;; s^2 + c^2 = 1 (hyperbolic: c^2 - s^2 = 1).  Angles are sums of rational multiples of units, so
-;;; that sin(a+b), 2*theta and theta/2 are polynomials in the pairs of a, b, theta/2.
+;;; that sin(a+b), 2*theta and theta/2 are polynomials in the pairs of a, b, theta/2.  Of angles
+;;; 30*t, 60*t alone the pair is that of 30*t: multiples.lisp.
 
 (in-package :maxima)
 
@@ -22,7 +23,9 @@
 (defstruct (algebra-unit (:conc-name algebra-unit-))
   base            ; the base angle or exponent
   kind            ; circular, hyperbolic, or the base of a power
-  (denominator 1) ; multiples of base/denominator occur
+  (denominator 1) ; rational: multiples of base/denominator occur
+  (terms nil)     ; the (factor . unit) that were met
+  (apart nil)     ; (factor . unit): multiples that have a unit of their own
   cosine          ; its kernels
   sine)           ; an exponential has only one, in cosine
 
@@ -98,7 +101,8 @@
         finally (setq genvar variables varlist expressions)))
 
 (defun algebra-unit-kernels (unit)
-  (let ((step (div (algebra-unit-base unit) (algebra-unit-denominator unit)))
+  (let ((step (div (mul (algebra-unit-base unit) (denominator (algebra-unit-denominator unit)))
+                   (numerator (algebra-unit-denominator unit))))
         (kind (algebra-unit-kind unit))
         (sure (algebra-independent-p (algebra-unit-base unit))))
     (flet ((kernel (expression class sure)

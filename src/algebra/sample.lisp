@@ -24,6 +24,7 @@
   (with-algebra-ring
     (let* ((*algebra-exponential-form* t)
            (*algebra-roots-apart* t)
+           (*algebra-every-multiple* t)
            (skeleton (algebra-scan e)))
       (algebra-number-kernels)
       (algebra-sampled-zero skeleton))))

@@ -94,10 +94,19 @@
 (defun algebra-term (term kind)
   (or (and (eq kind 'circular) (algebra-known-angle term))
       (multiple-value-bind (factor base) (algebra-numeric-factor term)
-        (let ((unit (algebra-find-unit base kind)))
+        (algebra-unit-term factor (algebra-find-unit base kind)))))
+
+(defun algebra-unit-term (factor unit)
+  "The term FACTOR times the base of UNIT, whose step is made to divide it."
+  (let ((apart (assoc (abs factor) (algebra-unit-apart unit))))
+    (if apart
+        (cons (signum factor) (cdr apart))
+        (let ((term (cons factor unit)))
           (setf (algebra-unit-denominator unit)
-                (lcm (algebra-unit-denominator unit) (denominator factor)))
-          (cons factor unit)))))
+                (* (algebra-unit-denominator unit)
+                   (denominator (* factor (algebra-unit-denominator unit)))))
+          (push term (algebra-unit-terms unit))
+          term))))
 
 (defun algebra-known-angle (term)
   "(known cosine sine) for multiples of %pi whose sines Maxima knows by roots."

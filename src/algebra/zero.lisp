@@ -26,6 +26,7 @@
   (with-algebra-ring
     (let* ((*algebra-exponential-form* t)
            (*algebra-roots-apart* t)
+           (*algebra-every-multiple* t)
            (skeleton (algebra-scan e)))
       (algebra-order-kernels)
       (if (null (algebra-sampled-zero skeleton))

@@ -165,9 +165,21 @@ brings."
                     (loop for row in (cdr ($core_get description '$branches '((mlist))))
                           append (archive-row-own-state row))))))
 
+(defun archive-check-laws (description moving)
+  "A law depends on its arguments and parameters: derivatives of its function are taken while it is
+open."
+  (loop for law in (cdr ($core_get description '$laws '((mlist))))
+        for names = (archive-law-names (archive-list (list law)))
+        do (loop for (name . what) in (cons '($t . "the time") moving)
+                 do (when (member name names)
+                      (core-fault "system" '$laws "the law of ~a contains ~a, ~a; ~
+                                  make it an argument of the function"
+                                  (core-spelling (caar (second law))) (core-spelling name) what)))))
+
 (defun archive-check-parameters (description)
   (let ((parameters (archive-fact-names ($core_get description '$parameters '((mlist)))))
         (fixed (archive-lefts ($core_get description '$values '((mlist))))))
+    (archive-check-laws description (archive-moving-names description))
     (loop for (name . what) in (archive-moving-names description)
           do (when (member name parameters)
                (core-fault "system" '$parameters "~a is both ~a and a parameter"
