@@ -157,7 +157,9 @@
          (points (signs-points facts point 12)))
     (core-guarded facts
                   (lambda ()
-                    (or (signs-wrong-sign facts points) (signs-wrong-simplified facts points))))))
+                    (or (signs-wrong-sign facts points)
+                        (signs-wrong-form '$simplified #'simplify facts points)
+                        (signs-wrong-form '$normal #'signs-normal facts points))))))
 
 (defun signs-wrong-sign (facts points)
   (let* ((e (or (car (core-attempt (lambda () (signs-wrapped (1+ (signs-random 3)))))) 1))
@@ -168,13 +170,17 @@
             return (list '(mlist simp) sign e (cons '(mlist simp) facts)
                          (signs-shown point)))))
 
-(defun signs-wrong-simplified (facts points)
-  (let* ((form (signs-unsimplified (1+ (signs-random 2)))) (simple (simplify (copy-tree form))))
+(defun signs-normal (form) (algebra-normal-form (simplify form)))
+
+(defun signs-wrong-form (what function facts points)
+  "A form whose value at a point is no longer the same after FUNCTION."
+  (let* ((form (signs-unsimplified (1+ (signs-random 2))))
+         (after (funcall function (copy-tree form))))
     (loop for point in points
           for value = (catch 'no-value (signs-value form point))
-          for after = (catch 'no-value (signs-value simple point))
-          unless (or (null value) (null after) (= value after))
-            return (list '(mlist simp) '$simplified form simple (cons '(mlist simp) facts)
+          for other = (catch 'no-value (signs-value after point))
+          unless (or (null value) (null other) (= value other))
+            return (list '(mlist simp) what form after (cons '(mlist simp) facts)
                          (signs-shown point)))))
 
 (defun signs-shown (point)
