@@ -17,7 +17,7 @@ bench:
 bench-peers:
 	@bench/peers/run
 
-# A hundred thousand damaged archives, of which the tests run a thousand.
+# The adversaries: random cases that try to refute what is claimed, of which the tests run a few.
 fuzz:
 	@tools/fuzz
 
