@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The law of the watch: a call that is stopped at any moment leaves the session as it was, no
-;;; timer, and its archive either as it was, byte for byte, or as the whole call leaves it. Called by
-;;; tests/rtest_core_watch.mac and, with more cases, by tools/fuzz. Look first at $fuzz_watch.
+;;; timer, and its archive either as it was, byte for byte, or as the whole call leaves it. Called
+;;; by tests/rtest_core_watch.mac and, with more cases, by tools/fuzz. Look first at $fuzz_watch.
 
 (in-package :maxima)
 
@@ -36,6 +36,19 @@
                          :element-type '(unsigned-byte 8) :if-exists :supersede)
       (write-sequence bytes out))
     bytes))
+
+;; Endless(e), a public function for tests, works for ever where every error is caught
+
+(defun $fuzz_watch_endless (e)
+  (loop (core-attempt
+         (lambda ()
+           (ignore-errors (meval (list '($errcatch) (list '($expand) (power e 20)))))
+           (merror "nobody sees this")))))
+
+(core-public "Endless" :forms '(("expressions" "body")))
+(setf (gethash "core/endless" *core-loaded*) t)
+(core-rule "Endless" :any "core/endless" "fuzz_watch_endless" "body")
+(core-install "Endless")
 
 (defun fuzz-watch-said (function)
   "What is written to the terminal while the Maxima FUNCTION runs."

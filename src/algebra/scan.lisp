@@ -125,10 +125,13 @@
           ((cdddr term) (values number (cons '(mtimes simp) (cddr term))))
           (t (values number (caddr term))))))
 
+(defparameter *algebra-root-order* 1000
+  "Roots of a higher order are powers about which no more is known.")
+
 (defun algebra-scan-power (base exponent)
   (let ((number (algebra-rational-number exponent)))
     (cond ((eq base '$%e) (list 'power (algebra-terms exponent '$%e)))
           ((integerp number) (list '^ (algebra-scan base) number))
-          (number (list '^ (algebra-root base (denominator number) #'algebra-scan)
-                        (numerator number)))
+          ((and number (<= (denominator number) *algebra-root-order*))
+           (list '^ (algebra-root base (denominator number) #'algebra-scan) (numerator number)))
           (t (list 'power (algebra-terms exponent (algebra-argument-form base)))))))

@@ -68,6 +68,7 @@
 
 (defun algebra-guard-product (p q)
   "Terms of P*Q: not more than the product of both counts, nor than their degrees allow."
+  #-sbcl (core-watch) ; without a timer the clock is looked at here
   (let ((bound (* (algebra-monomials p) (algebra-monomials q))))
     (when (> bound *algebra-limit*)
       (algebra-guard (min bound (algebra-dense-bound (algebra-degrees p) (algebra-degrees q)))

@@ -73,14 +73,22 @@
       (mapc #'visit (cons $context (cdr $activecontexts))))
     (nreverse seen)))
 
+(defun core-users-name-p (e)
+  "Whether E is a name that means nothing to Maxima itself, as inf and beta do."
+  (and (symbolp e)
+       (let ((name (symbol-name e)))
+         (and (char= (char name 0) #\$)
+              (char/= (char name (min 1 (1- (length name)))) #\%)))
+       (not (get e 'sysconst))
+       (not (get e 'operators))))
+
 (defun core-users-fact-p (fact)
-  "Whether FACT is about a name that is no constant of Maxima's own."
-  (labels ((own (e) (cond ((symbolp e) (let ((name (symbol-name e)))
-                                         (and (char= (char name 0) #\$)
-                                              (char/= (char name (min 1 (1- (length name)))) #\%))))
+  "Whether FACT is one that the user stated: Maxima's own are about constants and functions; what
+is declared of a name, constant, real, is a name of Maxima's."
+  (labels ((own (e) (cond ((symbolp e) (core-users-name-p e))
                           ((consp e) (or (and (consp (car e)) (own (caar e)))
                                          (some #'own (cdr e)))))))
-    (some #'own (cdr fact))))
+    (if (eq (caar fact) '$kind) (own (cadr fact)) (some #'own (cdr fact)))))
 
 (defun core-session-facts ()
   "The relations that the session assumes."

@@ -64,7 +64,7 @@
 
 (defun core-rounded (seconds)
   "SECONDS as a person says them."
-  (if (< seconds 10) (format nil "~,1f" seconds) (format nil "~d" (round seconds))))
+  (if (< seconds 10) (format nil "~,2f" seconds) (format nil "~d" (round seconds))))
 
 (defun core-late-text (deadline)
   (format nil "stopped after ~a s, the limit of time~@[, while ~a~]; ~a, or more time by ~

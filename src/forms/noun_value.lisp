@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Values of nouns at a point. A derivative that Maxima carries out is a formula; else (max(x,0), an
-;;; integral) it is a quotient of differences. An integral is never carried out: its value is
+;;; Values of nouns at a point. A derivative that Maxima carries out is a formula; else, as of
+;;; max(x,0), it is a quotient of differences. An integral is never carried out: its value is
 ;;; sum w_k f(s_k) with Takahasi and Mori's nodes (double exponential formulas, 1974),
 ;;;     s = (a+b)/2 + (b-a)/2 tanh(pi/2 sinh(k h)),
 ;;; which serve integrands that are singular at the ends, too. Where half the step gives another

@@ -47,7 +47,9 @@
       e
       (let ((parts (mapcar #'$forms_closed (cdr e))))
         (case (caar e)
-          (%derivative (if (forms-low-order-p parts) (apply #'$diff parts) (cons '(%derivative simp) parts)))
+          (%derivative (if (forms-low-order-p parts)
+                           (apply #'$diff parts)
+                           (cons '(%derivative simp) parts)))
           (%at (apply #'$at parts))
           (t (cond ((forms-open-function-p (caar e)) (forms-sample-polynomial (caar e) parts))
                    ((every #'eq parts (cdr e)) e)
