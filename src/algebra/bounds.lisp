@@ -184,7 +184,7 @@ nil where there is none."
         sign
         (loop for gap in gaps
               do (dolist (place places)
-                   (let ((slope (algebra-slope table (car gap) place signs)))
+                   (let ((slope (algebra-gap-slope table (car gap) place signs)))
                      (when slope
                        (let ((sign (algebra-shift-by table place gap slope
                                                      (remove gap gaps :test #'eq)
@@ -192,7 +192,7 @@ nil where there is none."
                          (unless (eq sign '$unknown) (return-from algebra-shift sign))))))
               finally (return '$unknown)))))
 
-(defun algebra-slope (table gap place signs)
+(defun algebra-gap-slope (table gap place signs)
   "The coefficient, of known sign, of the variable at PLACE in which GAP is linear and which occurs
 in TABLE; else nil."
   (and (eql 1 (algebra-table-degree-in gap place))
