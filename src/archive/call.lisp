@@ -52,14 +52,9 @@ at where they are used.")
 
 (defun archive-open-system (system)
   "The archive of a path, as given or found by Maxima's file_search, or of a description list."
-  (cond ((not (stringp system)) (archive-open-list system))
+  (cond ((not (stringp system)) (archive-check-list system))
         ((core-existing-file system) (archive-open system))
         (t (archive-open-found system))))
-
-(defun archive-open-list (list)
-  (let ((archive (archive-check-list list)))
-    (archive-check-description-spellings (archive-description archive))
-    archive))
 
 (defun archive-open-found (path)
   (let ((found (car (core-attempt (lambda () ($file_search path))))))

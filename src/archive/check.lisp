@@ -7,7 +7,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/description" "archive/names" "archive/sections" "archive/bytes"
-                "archive/simplify"))
+                "archive/simplify" "archive/contents"))
 
 (defun archive-check-groups (path text parts groups)
   "The archive made of GROUPS, with a warning on names that nothing declares."
@@ -16,6 +16,7 @@
    (lambda ()
      (let* ((description (archive-with-plain-simplifier (archive-checked groups)))
             (kind (core-spelling ($core_get description '$kind))))
+       (unless parts (archive-check-description-spellings description))
        (archive-check-agreement kind description)
        (archive-warn-free-symbols kind description)
        (make-archive :path path :text text :parts parts :groups groups :kind kind

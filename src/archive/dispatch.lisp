@@ -63,7 +63,8 @@
   "As core-caught: the program of what would be too long; TEXT, the first error, where there is
 none."
   (multiple-value-bind (program refusal)
-      (archive-tried name (append arguments (list (archive-option-of *archive-program-form*))))
+      (archive-tried name (append (remove-if #'archive-form-option-p arguments)
+                                  (list (archive-option-of *archive-program-form*))))
     (cond (refusal (values nil text))
           (t (core-note "as an expression it would be too long: the result is a program, ~
                          as with form = program")

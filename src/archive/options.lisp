@@ -51,12 +51,15 @@ arrive as their values."
   "The option that CONDITION, (name value), asks for, as an equation."
   (list '(mequal) (core-symbol (first condition)) (second condition)))
 
+(defun archive-form-option-p (argument)
+  (and (archive-equation-p argument) (eq (cadr argument) (core-symbol "form"))))
+
 (defun archive-program-serves-p (name arguments)
   "Whether NAME has a program too, and the form is left to us."
   (and arguments
        (member name (archive-program-names) :test #'string=)
        (loop for equation in (nth-value 1 (archive-split-arguments arguments))
-             never (and (eq (cadr equation) (core-symbol "form"))
+             never (and (archive-form-option-p equation)
                         (not (eq (caddr equation) '$auto))))))
 
 (defun archive-program-names ()
@@ -64,7 +67,6 @@ arrive as their values."
               when (find *archive-program-form* rules :key #'rule-given :test #'equal)
                 collect name)
         #'string<))
-
 
 ;;; Which options there are
 
