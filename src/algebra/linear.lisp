@@ -89,9 +89,8 @@
               for i from 0
               append (loop for b-j in b
                            for j from 0
-                           collect (algebra-times (algebra-times b-i (cons d 1))
-                                                  (algebra-times (cons (aref cofactors i j) 1)
-                                                                 b-j)))))
+                           collect (algebra-product
+                                    (list b-i (cons d 1) (cons (aref cofactors i j) 1) b-j)))))
        determinant))))
 
 ;;; Elimination on general expressions, for systems of any shape.

@@ -120,20 +120,20 @@
 
 (defun algebra-powers (p variable)
   "P as a list of (exponent coefficient) in any of its variables."
+  (cond ((or (atom p) (pointergp variable (car p))) (list (list 0 p)))
+        ((eq (car p) variable)
+         (loop for (exponent coefficient) on (cdr p) by #'cddr
+               collect (list exponent coefficient)))
+        (t (algebra-inner-powers p variable))))
+
+(defun algebra-inner-powers (p variable)
+  "The same where VARIABLE stands below the main variable of P; nothing is multiplied."
   (let ((powers nil))
-    (labels ((collect (p multiplier)
-               (cond ((or (atom p) (pointergp variable (car p)))
-                      (add 0 (ptimes p multiplier)))
-                     ((eq (car p) variable)
-                      (loop for (exponent coefficient) on (cdr p) by #'cddr
-                            do (add exponent (ptimes coefficient multiplier))))
-                     (t (loop for (exponent coefficient) on (cdr p) by #'cddr
-                              do (collect coefficient
-                                   (ptimes multiplier (list (car p) exponent 1)))))))
-             (add (exponent coefficient)
-               (let ((entry (assoc exponent powers)))
-                 (if entry
-                     (setf (cadr entry) (pplus (cadr entry) coefficient))
-                     (push (list exponent coefficient) powers)))))
-      (collect p 1)
-      powers)))
+    (loop for (outer part) on (cdr p) by #'cddr
+          do (loop for (exponent coefficient) in (algebra-powers part variable)
+                   for entry = (or (assoc exponent powers)
+                                   (car (push (list exponent) powers)))
+                   do (push outer (cdr entry))
+                      (push coefficient (cdr entry))))
+    (loop for (exponent . terms) in powers
+          collect (list exponent (psimp (car p) (reverse terms))))))

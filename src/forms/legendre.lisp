@@ -74,6 +74,7 @@
            (quotients (progn (algebra-order-kernels)
                              (mapcar (lambda (row) (mapcar #'algebra-evaluate row)) skeletons)))
            (found (algebra-inverse-form (cdr quotients) (car quotients))))
+      (algebra-guard (algebra-monomials (car found)) "the canonical form")
       (algebra-general-reduced (cons (car found) (ptimes 2 (cdr found)))))))
 
 ;;; Factored.
@@ -104,6 +105,13 @@
   "Each of the 2n derivatives of H has a few times its length."
   (let ((*algebra-advice* *forms-advice*))
     (algebra-guard (floor (* n (algebra-size h)) 2) "Hamilton's equations")
+    '$done))
+
+(defun $forms_guard_second_derivatives (r n)
+  "Lagrange's equations of a function R with quotients: n of them, each with n second derivatives
+of some three times its length."
+  (let ((*algebra-advice* *forms-advice*))
+    (algebra-guard (floor (* 3 n n (algebra-size r)) 5) "the equations of Routh's function")
     '$done))
 
 (defun forms-nested-form (rows b)
