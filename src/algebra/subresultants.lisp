@@ -44,7 +44,7 @@
 
 ;;; A polynomial: its coefficients, highest first, by a function of the digits in force.
 
-(defstruct (algebra-real (:conc-name algebra-real-))
+(defstruct (algebra-real (:conc-name algebra-real-) (:predicate nil))
   coefficients
   norm    ; S times the coefficients are algebraic integers; binary logarithm of their length
   scale   ; and of S, in every embedding
