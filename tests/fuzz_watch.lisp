@@ -102,9 +102,25 @@
       (list (format nil "~a of ~a stopped after ~d ms: ~{~a~^ ~}" function example limit
                     trouble)))))
 
+(defun fuzz-watch-in-a-session (function)
+  "Calls FUNCTION while the session has facts in two contexts, a declaration and a dependency."
+  (unwind-protect
+       (progn
+         (meval '(($declare) $fuzz_n $integer))
+         (meval '(($depends) $fuzz_y $t))
+         (with-new-context ()
+           (mfuncall '$assume '((mgreaterp) $fuzz_a 3))
+           (with-new-context ()
+             (mfuncall '$assume '((mgreaterp) $fuzz_b $fuzz_a) '((mgreaterp) $m 2))
+             (funcall function))))
+    (meval '(($remove) $fuzz_n $integer))
+    (meval '(($remove) $fuzz_y $dependency))))
+
 (defun $fuzz_watch (count seed)
   "COUNT random calls, stopped at random moments; a list of what went wrong."
   (let ((*fuzz-state* seed))
-    (unwind-protect (cons '(mlist simp) (loop repeat count append (fuzz-watch-case)))
+    (unwind-protect
+         (cons '(mlist simp)
+               (fuzz-watch-in-a-session (lambda () (loop repeat count append (fuzz-watch-case)))))
       (when (core-existing-file (fuzz-watch-path))
         (delete-file (core-pathname (fuzz-watch-path)))))))
