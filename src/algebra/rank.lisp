@@ -12,13 +12,23 @@
 (defun $algebra_rank (m)
   (algebra-check-matrix m "the matrix of a rank")
   (with-algebra-ring
-    (let* ((*algebra-exponential-form* t)
-           (*algebra-roots-apart* t)
-           (rows (mapcar (lambda (row) (nth-value 0 (algebra-common-denominator row)))
-                         (algebra-matrix-quotients m)))
-           (matrix (algebra-rectangle rows))
+    (let* ((matrix (algebra-rank-matrix m))
            (minor (algebra-point-minor matrix)))
       (algebra-border matrix (car minor) (cdr minor)))))
+
+(defun $algebra_least_rank (m)
+  "A lower bound of the rank, that at a point; no minor is formed."
+  (algebra-check-matrix m "the matrix of a rank")
+  (with-algebra-ring
+    (length (car (algebra-point-minor (algebra-rank-matrix m))))))
+
+(defun algebra-rank-matrix (m)
+  "Its rows without denominators, in the ring at hand."
+  (let ((*algebra-exponential-form* t)
+        (*algebra-roots-apart* t)
+        (*algebra-every-multiple* t))
+    (algebra-rectangle (mapcar (lambda (row) (nth-value 0 (algebra-common-denominator row)))
+                               (algebra-matrix-quotients m)))))
 
 (defun algebra-rectangle (rows)
   (make-array (list (length rows) (length (car rows))) :initial-contents rows))
