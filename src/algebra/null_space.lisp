@@ -135,7 +135,5 @@
                  (let ((answer (algebra-rational-vectors residues modulus columns)))
                    (when (and (or answer (null residues))
                               (every (lambda (v) (algebra-null-vector-p rows v)) answer))
-                     (return (mapcar (lambda (v) (mapcar #'algebra-from-rational v)) answer)))))))))
-
-(defun algebra-from-rational (r)
-  (div (numerator r) (denominator r)))
+                     (return (loop for v in answer
+                                   collect (mapcar #'algebra-maxima-rational v))))))))))
