@@ -9,6 +9,10 @@
   (cond ((rationalp e) e)
         ((ratnump e) (/ (cadr e) (caddr e)))))
 
+(defun algebra-maxima-rational (r)
+  "The rational R as Maxima holds it."
+  (div (numerator r) (denominator r)))
+
 (defun algebra-prime-factors (n)
   "(prime power prime power ..); a large N counts as one prime."
   (cond ((= n 1) nil)

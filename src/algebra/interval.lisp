@@ -154,10 +154,14 @@
       (algebra-integer-root a n)))
 
 (defun algebra-integer-root (a n)
-  "The largest integer whose n-th power is not above A >= 0: Newton's iteration from above."
+  "The largest integer whose n-th power is not above A >= 0: Newton's iteration from above, which
+the root of the leading half of the digits begins."
   (cond ((= n 2) (isqrt a))
         ((zerop a) 0)
-        (t (loop with x = (ash 1 (ceiling (integer-length a) n))
+        (t (loop with half = (floor (integer-length a) (* 2 n))
+                 with x = (if (< half 16)
+                              (ash 1 (ceiling (integer-length a) n))
+                              (ash (1+ (algebra-integer-root (ash a (- (* n half))) n)) half))
                  for better = (floor (+ (* (1- n) x) (floor a (expt x (1- n)))) n)
                  while (< better x)
                  do (setq x better)

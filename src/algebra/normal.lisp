@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/scan" "algebra/evaluate" "algebra/readable" "algebra/general"))
+  (core-require "algebra/scan" "algebra/evaluate" "algebra/readable" "algebra/general"
+                "algebra/vanishing"))
 
 (defun $algebra_normal (e)
   (algebra-map-bags #'algebra-normal-form e))
@@ -51,14 +52,19 @@
 (defun algebra-cancel (quotient)
   "Reduce numerator and denominator modulo the relations and cancel."
   (destructuring-bind (n . d) quotient
-    (let ((above (algebra-reduce n))
-          (below (algebra-reduce d)))
+    (let ((above (algebra-zeros-left-out (algebra-reduce n)))
+          (below (algebra-zeros-left-out (algebra-reduce d))))
       (cond ((pzerop (car below)) (core-error "division by zero"))
             ((pzerop (car above)) (cons 0 1))
             ((eql d 1) above)
             ((algebra-long-p d) (algebra-shortest-angles (algebra-ratio-of above below)))
-            (t (algebra-settle (algebra-shortest-angles
-                                (algebra-ratio-of above (algebra-reduce-roots d)))))))))
+            (t (algebra-settle
+                (algebra-shortest-angles
+                 (algebra-ratio-of above
+                                   (algebra-zeros-left-out (algebra-reduce-roots d))))))))))
+
+(defun algebra-zeros-left-out (quotient)
+  (cons (algebra-without-zero-terms (car quotient)) (cdr quotient)))
 
 (defun algebra-long-p (d)
   (> (algebra-monomials d) 12))

@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
 ;;; Vectors v with M v = 0.  Rational M: the reduced echelon form modulo primes, put together to
-;;; rational numbers, as few primes as these need.  The proof: M v = 0 exactly, and there are no more
-;;; such vectors than modulo a prime, where the rank is not greater.  Other M: elimination with
-;;; exact zero tests (linear.lisp).
+;;; rational numbers, as few primes as these need.  The proof: M v = 0 exactly, and there are no
+;;; more such vectors than modulo a prime, where the rank is not greater.  Other M: elimination
+;;; with exact zero tests (linear.lisp).
 
 (in-package :maxima)
 
@@ -135,7 +135,5 @@
                  (let ((answer (algebra-rational-vectors residues modulus columns)))
                    (when (and (or answer (null residues))
                               (every (lambda (v) (algebra-null-vector-p rows v)) answer))
-                     (return (mapcar (lambda (v) (mapcar #'algebra-from-rational v)) answer)))))))))
-
-(defun algebra-from-rational (r)
-  (div (numerator r) (denominator r)))
+                     (return (loop for v in answer
+                                   collect (mapcar #'algebra-maxima-rational v))))))))))

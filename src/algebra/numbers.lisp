@@ -29,19 +29,20 @@
   (let* ((plain (catch 'algebra-undecided (algebra-plain-constant e)))
          (bits (and plain (algebra-separation-bits plain))))
     (cond ((null plain) nil)
-          ((null bits) (algebra-interval-sign-among plain '(1024 4096)))
-          ((> bits *algebra-most-bits*)
-           (algebra-interval-sign-among plain (list 1024 4096 *algebra-most-bits*)))
+          ((or (null bits) (> bits *algebra-most-bits*))
+           (algebra-interval-sign-among plain '(1024 4096)))
           ((algebra-interval-sign-among plain (if (> bits 4096) '(1024))))
           (t (algebra-sign-or-zero plain bits)))))
 
 (defun algebra-sign-or-zero (e bits)
   "The sign of E, which is 0 or in size at least 2^-BITS; more digits where E loses some."
   (loop for width in (list (+ bits 64) (* 2 (+ bits 64)))
-        thereis (or (algebra-interval-sign-at e width)
-                    (let* ((*algebra-interval-bits* width)
-                           (interval (catch 'no-interval (algebra-i-of e))))
-                      (and interval (algebra-i-below-p interval bits) 0)))))
+        thereis (let* ((*algebra-interval-bits* width)
+                       (interval (catch 'no-interval (algebra-i-of e))))
+                  (cond ((null interval) nil)
+                        ((plusp (car interval)) 1)
+                        ((minusp (cdr interval)) -1)
+                        ((algebra-i-below-p interval bits) 0)))))
 
 (defun algebra-i-below-p (interval bits)
   "Whether all of INTERVAL is smaller than 2^-BITS."

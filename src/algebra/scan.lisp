@@ -93,7 +93,7 @@
 
 (defun algebra-term (term kind)
   (or (and (eq kind 'circular) (algebra-known-angle term))
-      (multiple-value-bind (factor base) (algebra-numeric-factor term)
+      (multiple-value-bind (factor base) (algebra-angle-factor term kind)
         (algebra-unit-term factor (algebra-find-unit base kind)))))
 
 (defun algebra-unit-term (factor unit)
@@ -107,6 +107,15 @@
                    (denominator (* factor (algebra-unit-denominator unit)))))
           (push term (algebra-unit-terms unit))
           term))))
+
+(defun algebra-angle-factor (term kind)
+  "Factor and base of TERM; each part of %pi is a base of its own, less than a half turn: as
+multiples of a common part their polynomials would be long, and zeros are found without."
+  (multiple-value-bind (factor base) (algebra-numeric-factor term)
+    (if (and (eq kind 'circular) (eq base '$%pi))
+        (let ((part (- (mod (1+ factor) 2) 1)))
+          (values (if (minusp part) -1 1) (mul (algebra-maxima-rational (abs part)) '$%pi)))
+        (values factor base))))
 
 (defun algebra-known-angle (term)
   "(known cosine sine) for multiples of %pi whose sines Maxima knows by roots."

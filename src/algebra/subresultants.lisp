@@ -86,8 +86,7 @@
 
 (defstruct (algebra-sequence (:conc-name algebra-sequence-))
   signs     ; ((degree . sign of the principal coefficient) ..), falling degrees
-  divisor   ; coefficients of the last that does not vanish
-  rows)     ; (rows of P . rows of Q) in its determinants
+  divisor)  ; coefficients of the last that does not vanish
 
 (defun algebra-subresultants (p q)
   "The sequence of P and Q, real polynomials, the degree of Q below that of P."
@@ -106,7 +105,6 @@
   "A and B the coefficients of P and Q, that of the highest power of A positive."
   (let* ((top (1- (length a))) (bottom (1- (length b)))
          (signs (list (cons top 1)))
-         (rows-a '(1 . 0)) (rows-b '(0 . 1))
          (last-a 1) (principal 1) (j top))
     (loop until (null b)
           do (let* ((k (1- (length b)))
@@ -116,9 +114,8 @@
                                                      (algebra-n* principal last-a))))
                (push (cons k (algebra-n-sign next nil)) signs)
                (psetq last-a (car b) principal next j k
-                      a b b (algebra-trimmed-real rest (algebra-rows-bits p q rows))
-                      rows-a rows-b rows-b rows)))
-    (make-algebra-sequence :signs (nreverse signs) :divisor a :rows rows-a)))
+                      a b b (algebra-trimmed-real rest (algebra-rows-bits p q rows)))))
+    (make-algebra-sequence :signs (nreverse signs) :divisor a)))
 
 (defun algebra-principal (leading principal gap)
   "s_k of a subresultant with the LEADING coefficient, GAP degrees below that of PRINCIPAL."
@@ -152,13 +149,15 @@
           sum (* sign next (if (member (mod (- j k) 4) '(0 1)) 1 -1))))
 
 (defun algebra-common-divisor (p q sequence)
-  "The greatest common divisor of P and Q, up to a factor, from their SEQUENCE."
-  (let ((rows (algebra-sequence-rows sequence)))
-    (make-algebra-real
-     :coefficients (lambda () (algebra-sequence-divisor (algebra-subresultants p q)))
-     :norm (+ (algebra-rows-norm p q rows)
-              (/ (integer-length (length (algebra-sequence-divisor sequence))) 2))
-     :scale (algebra-rows-scale p q rows))))
+  "The greatest common divisor g of P and Q, from their SEQUENCE, monic.  With the leading
+coefficient a of S*P the coefficients of a*g are algebraic integers (Gauss), in size at most
+2^degree times the length of S*P (Landau, Mignotte)."
+  (make-algebra-real
+   :coefficients (lambda ()
+                   (let ((g (algebra-sequence-divisor (algebra-subresultants p q))))
+                     (cons 1 (loop for c in (cdr g) collect (algebra-n/ c (car g))))))
+   :norm (+ (algebra-sequence-degree sequence) (algebra-real-norm p))
+   :scale (algebra-real-norm p)))
 
 (defun algebra-sequence-degree (sequence)
   "The degree of the greatest common divisor."

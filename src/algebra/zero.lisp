@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/sample" "algebra/interval" "algebra/numbers"))
+  (core-require "algebra/normal" "algebra/sample" "algebra/vanishing" "algebra/interval"))
 
 (defun $algebra_zerop (e)
   (cond ((mequalp e) (algebra-zero-test (sub (cadr e) (caddr e))))
@@ -36,58 +36,6 @@
               (algebra-expanded-test (algebra-evaluate skeleton))))))))
 
 (defun algebra-expanded-test (quotient)
-  (when (algebra-vanishes-p (cdr quotient)) (core-error "division by zero"))
+  (when (eq 'zero (algebra-polynomial-test (car (algebra-reduce (cdr quotient)))))
+    (core-error "division by zero"))
   (algebra-polynomial-test (car (algebra-reduce (car quotient)))))
-
-(defun algebra-polynomial-test (p)
-  (let ((unsure (algebra-unsure-kernels p)))
-    (cond ((pzerop p) 'zero)
-          ((null unsure) 'not-zero)
-          ((every #'algebra-constant-kernel-p unsure) (algebra-coefficients-test p))
-          (t 'dependent))))
-
-(defun algebra-unsure-kernels (p)
-  (loop for kernel in (algebra-ring-kernels *algebra-ring*)
-        unless (or (algebra-kernel-sure kernel)
-                   (not (algebra-occurs-p (algebra-kernel-variable kernel) p)))
-          collect kernel))
-
-(defun algebra-constant-kernel-p (kernel)
-  ($constantp (algebra-kernel-expression kernel)))
-
-(defun algebra-coefficients-test (p)
-  "A polynomial in independent kernels whose coefficients are constants: test each of these."
-  (let ((answers (mapcar #'algebra-constant-test (algebra-constant-coefficients p))))
-    (cond ((member 'dependent answers) 'dependent)
-          ((member 'not-zero answers) 'not-zero)
-          (t 'zero))))
-
-(defun algebra-constant-coefficients (p)
-  (let ((coefficients (list p)))
-    (dolist (kernel (algebra-ring-kernels *algebra-ring*) coefficients)
-      (when (or (algebra-kernel-sure kernel) (eq (algebra-kernel-expression kernel) '$%i))
-        (setq coefficients (algebra-coefficients-of-all coefficients
-                                                        (algebra-kernel-variable kernel)))))))
-
-(defun algebra-coefficients-of-all (polynomials variable)
-  (loop for p in polynomials
-        append (mapcar #'cadr (algebra-powers p variable))))
-
-(defun algebra-constant-test (p)
-  "zero, not-zero or dependent, P a polynomial in constant kernels."
-  (if (pzerop p)
-      'zero
-      (case (algebra-constant-verdict (simplify (pdisrep p)))
-        (0 'zero)
-        ((1 -1) 'not-zero)
-        (t (if (algebra-parts-vanish-p p) 'zero 'dependent)))))
-
-(defun algebra-parts-vanish-p (p)
-  "P vanishes for every value of the transcendental constants in it."
-  (let ((parts (list p)))
-    (dolist (kernel (algebra-ring-kernels *algebra-ring*))
-      (unless (algebra-algebraic-p (algebra-kernel-expression kernel))
-        (setq parts (algebra-coefficients-of-all parts (algebra-kernel-variable kernel)))))
-    (and (not (equal parts (list p)))
-         (loop for part in parts
-               always (eql 0 (algebra-constant-verdict (simplify (pdisrep part))))))))

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The determinant of a matrix at a rational point, by elimination with numbers of 512 binary digits
-;;; and the largest pivot of each column: n^3/3 products, so that a check costs no more than what it
-;;; checks.
+;;; The determinant of a matrix at a rational point, by elimination with numbers of 512 binary
+;;; digits and the largest pivot of each column: n^3/3 products, so that a check costs no more than
+;;; what it checks.
 
 (in-package :maxima)
 
