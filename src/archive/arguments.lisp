@@ -9,11 +9,32 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/keys" "archive/types" "archive/names" "archive/speller"))
 
-(defun archive-general-arguments (arguments)
-  "ARGUMENTS with what `rat' and `taylor' made of them in general form."
+(defun archive-arguments-taken (arguments)
+  "ARGUMENTS as the session gave them: what `rat' and `taylor' made in general form, and keys that
+are variables of Maxima's by their names."
   (mapcar (lambda (argument)
-            (if (archive-contains-p argument 'mrat) ($totaldisrep argument) argument))
+            (archive-named-keys
+             (if (archive-contains-p argument 'mrat) ($totaldisrep argument) argument)))
           arguments))
+
+(defun archive-named-keys (argument)
+  "ARGUMENT with the names of keys, of an option or of a description list, that arrive as values."
+  (cond ((archive-equation-p argument) (archive-named-key argument))
+        ((archive-list-p argument)
+         (cons (car argument) (mapcar #'archive-named-key (cdr argument))))
+        (t argument)))
+
+(defun archive-named-key (e)
+  "The equation E with its key by name: `functions', `values' and `verbose' are variables of Maxima
+and always have values."
+  (if (archive-equation-p e)
+      (let ((left (cadr e)))
+        (cond ((eq left $functions) (archive-equation '$functions (caddr e)))
+              ((eq left $values) (archive-equation '$values (caddr e)))
+              ((and (member left '(nil t)) (eq left $verbose))
+               (archive-equation '$verbose (caddr e)))
+              (t e)))
+      e))
 
 ;;; Types
 
