@@ -62,6 +62,7 @@ subscripts, and a formula may stand for a law of its own.")
     (:rates "equations")
     (:integrals "integrals")
     (:branches "inductances" "capacitances")
+    (:vanishing "within" "manifold")
     (:square "A" "M" "S" "W" "D" "G" "P"))
   "Arguments by their types; of the others the type is that of the key of [system].")
 
