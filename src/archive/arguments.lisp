@@ -13,18 +13,18 @@
   "ARGUMENTS as the session gave them: what `rat' and `taylor' made in general form, and keys that
 are variables of Maxima's by their names."
   (mapcar (lambda (argument)
-            (archive-named-keys
+            (archive-keys-by-name
              (if (archive-contains-p argument 'mrat) ($totaldisrep argument) argument)))
           arguments))
 
-(defun archive-named-keys (argument)
+(defun archive-keys-by-name (argument)
   "ARGUMENT with the names of keys, of an option or of a description list, that arrive as values."
-  (cond ((archive-equation-p argument) (archive-named-key argument))
+  (cond ((archive-equation-p argument) (archive-key-by-name argument))
         ((archive-list-p argument)
-         (cons (car argument) (mapcar #'archive-named-key (cdr argument))))
+         (cons (car argument) (mapcar #'archive-key-by-name (cdr argument))))
         (t argument)))
 
-(defun archive-named-key (e)
+(defun archive-key-by-name (e)
   "The equation E with its key by name: `functions', `values' and `verbose' are variables of Maxima
 and always have values."
   (if (archive-equation-p e)
