@@ -8,7 +8,7 @@
 
 (defun test-list (items) (cons '(mlist simp) items))
 
-(defun $test_checked (list) (archive-description (archive-check-list list)))
+(defun $test_checked (list) (archive-description (archive-check-list (archive-keys-by-name list))))
 
 (defun $test_facts (list) (test-list (archive-facts ($test_checked list))))
 

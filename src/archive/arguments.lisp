@@ -9,11 +9,32 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/keys" "archive/types" "archive/names" "archive/speller"))
 
-(defun archive-general-arguments (arguments)
-  "ARGUMENTS with what `rat' and `taylor' made of them in general form."
+(defun archive-arguments-taken (arguments)
+  "ARGUMENTS as the session gave them: what `rat' and `taylor' made in general form, and keys that
+are variables of Maxima's by their names."
   (mapcar (lambda (argument)
-            (if (archive-contains-p argument 'mrat) ($totaldisrep argument) argument))
+            (archive-keys-by-name
+             (if (archive-contains-p argument 'mrat) ($totaldisrep argument) argument)))
           arguments))
+
+(defun archive-keys-by-name (argument)
+  "ARGUMENT with the names of keys, of an option or of a description list, that arrive as values."
+  (cond ((archive-equation-p argument) (archive-key-by-name argument))
+        ((archive-list-p argument)
+         (cons (car argument) (mapcar #'archive-key-by-name (cdr argument))))
+        (t argument)))
+
+(defun archive-key-by-name (e)
+  "The equation E with its key by name: `functions', `values' and `verbose' are variables of Maxima
+and always have values."
+  (if (archive-equation-p e)
+      (let ((left (cadr e)))
+        (cond ((eq left $functions) (archive-equation '$functions (caddr e)))
+              ((eq left $values) (archive-equation '$values (caddr e)))
+              ((and (member left '(nil t)) (eq left $verbose))
+               (archive-equation '$verbose (caddr e)))
+              (t e)))
+      e))
 
 ;;; Types
 
@@ -41,6 +62,7 @@ subscripts, and a formula may stand for a law of its own.")
     (:rates "equations")
     (:integrals "integrals")
     (:branches "inductances" "capacitances")
+    (:vanishing "within" "manifold")
     (:square "A" "M" "S" "W" "D" "G" "P"))
   "Arguments by their types; of the others the type is that of the key of [system].")
 

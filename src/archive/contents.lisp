@@ -155,6 +155,26 @@
         (unless (some (lambda (x) (archive-occurs-p x e)) variables)
           (core-error "integrals: ~a is a constant" (archive-argument-shown item)))))))
 
+(defun archive-check-options-used (given)
+  "Unknowns and special cases are of names that occur: `none' and `no solution' would be said of
+others."
+  (let ((function (find-if (lambda (name) (nth-value 1 (gethash name given)))
+                           '("equations" "K" "Lagrangian"))))
+    (when function
+      (loop for (option . names) in (list (cons "unknowns" (cdr (gethash "unknowns" given)))
+                                          (cons "where" (archive-lefts (gethash "where" given))))
+            for absent = (find-if-not (lambda (x) (archive-used-elsewhere-p x option given)) names)
+            do (when absent
+                 (core-error "~a: ~a does not occur in ~a" option
+                             (archive-argument-shown absent) function))))))
+
+(defun archive-used-elsewhere-p (x option given)
+  "Whether X occurs in an argument or option other than OPTION, or on the right of it."
+  (loop for name being the hash-keys of given using (hash-value value)
+        thereis (archive-occurs-p x (cond ((string/= name option) value)
+                                          ((string= name "where")
+                                           (archive-list (archive-rights value)))))))
+
 ;;; All of a call
 
 (defparameter *archive-real-arguments*
@@ -185,4 +205,5 @@ take."
   (archive-check-derivatives given kind)
   (archive-check-occurrence given)
   (archive-check-potential given)
-  (archive-check-integrals given))
+  (archive-check-integrals given)
+  (archive-check-options-used given))

@@ -107,7 +107,7 @@
          (section (archive-group-section group)))
     (destructuring-bind (&optional condition other value) (if (consp default) default '())
       (case condition
-        (:when (unless (equal (archive-given-word group other) value)
+        (:when (unless (archive-given-p group other) ; else another field is meant for the time
                  (core-fault section name "~a has an effect with ~a = ~a only; write ~a = ~a, or ~
                                            leave ~a out"
                              name other value other value name)))

@@ -13,7 +13,9 @@
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
         (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
-        (*core-cheaper* (archive-cheaper name arguments)))
+        (*core-cheaper* nil))
+    (setq arguments (archive-arguments-taken arguments)
+          *core-cheaper* (archive-cheaper name arguments))
     (multiple-value-bind (value text)
         (core-caught (lambda () (archive-in-time name arguments)))
       (if text (merror "~A" text) value))))
@@ -78,7 +80,7 @@ none."
 
 (defun archive-called (name &rest arguments)
   (multiple-value-bind (positional options)
-      (archive-split-arguments (archive-exact-decimals (archive-general-arguments arguments)))
+      (archive-split-arguments (archive-exact-decimals arguments))
     (let ((public (gethash name *core-publics*)))
       (cond ((and (null positional) (core-public-kinds public))
              (archive-ask public options))

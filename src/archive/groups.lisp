@@ -147,8 +147,6 @@ header, or nil."
                 (archive-value-shown equation)))
   (let ((left (second equation)))
     (cond ((stringp left) left)
-          ((eq left $functions) "functions")  ; always bound in Maxima, and so is the next
-          ((eq left $values) "values")
           ((archive-symbol-p left) (archive-key-text left))
           (t (core-error "a description is a list of key = value, found ~a; ~
                           if the key has a value in the session, quote it"

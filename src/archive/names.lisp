@@ -215,7 +215,8 @@ open."
          (absent (remove-if (lambda (q) (member q used)) coordinates)))
     (cond ((null absent))
           ((= (length absent) (length coordinates))
-           (core-fault "system" '$lagrangian "lagrangian contains none of the coordinates ~{~a~^, ~}"
+           (core-fault "system" '$lagrangian
+                       "lagrangian contains none of the coordinates ~{~a~^, ~}"
                        (mapcar #'core-spelling coordinates)))
           (t (core-warn "coordinates that occur nowhere else: ~{~a~^, ~}"
                         (mapcar #'core-spelling absent))))))

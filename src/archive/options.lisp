@@ -11,13 +11,8 @@
   (core-require "archive/call" "archive/steps" "archive/arguments"))
 
 (defun archive-option-name (equation)
-  "The name of an option. `verbose', `functions' and `values' are variables of Maxima's own and
-arrive as their values."
   (let ((left (cadr equation)))
     (cond ((stringp left) left)
-          ((and (member left '(nil t)) (eq left $verbose)) "verbose")
-          ((eq left $functions) "functions")
-          ((eq left $values) "values")
           ((and left (symbolp left) (not (eq left t))) (core-spelling left))
           (t (core-error "an option has the form name = value, found ~a; if the name has a value ~
                           in your session, quote it: 'name = value~:[~; (`on' is true in Maxima, ~
@@ -58,9 +53,9 @@ arrive as their values."
   "Whether NAME has a program too, and the form is left to us."
   (and arguments
        (member name (archive-program-names) :test #'string=)
-       (loop for equation in (nth-value 1 (archive-split-arguments arguments))
-             never (and (archive-form-option-p equation)
-                        (not (eq (caddr equation) '$auto))))))
+       (loop for argument in arguments
+             never (and (archive-form-option-p argument)
+                        (not (eq (caddr argument) '$auto))))))
 
 (defun archive-program-names ()
   (sort (loop for name being the hash-keys of *core-rules* using (hash-value rules)
