@@ -314,3 +314,5 @@ them as typed, and are simplified anew."
   (let ((ordered (or greatorder lessorder)) (typed (mapcar #'core-typed-names arguments)))
     (core-clean (lambda ()
                   (apply function (if ordered (mapcar #'resimplify typed) arguments))))))
+
+(setq *core-reading* #'core-clean)
