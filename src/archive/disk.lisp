@@ -41,9 +41,9 @@
   #+sbcl (multiple-value-bind (found device inode mode links) (sb-unix:unix-stat name)
            (declare (ignore device inode mode))
            (and found (> links 1)))
-  #-sbcl (zerop (archive-shell-status
+  #-sbcl (zerop (core-shell-status
                  (format nil "test \"$(stat -L -c %h -- ~a)\" -gt 1 2>/dev/null"
-                         (archive-shell-quoted name)))))
+                         (core-shell-quoted name)))))
 
 (defun archive-copy-mode (from to)
   "Gives the file TO the permissions and, where it may be, the owner of FROM."
