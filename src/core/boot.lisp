@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The first file a package loads: it finds the repository, and loads from their text the files that
-;;; load all others: the table of rooms, the cache of compiled Lisp, and parts.
+;;; The first file a package loads: it finds the repository, and loads from their text the files
+;;; that load all others: the table of rooms, the cache of compiled Lisp, and parts.
 
 (in-package :maxima)
 

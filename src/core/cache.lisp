@@ -79,7 +79,8 @@ his own."
 
 (defun core-cache-base ()
   "The folder that holds caches of the user; nil where he has no home."
-  (flet ((given (name) (let ((text (core-environment name))) (and text (plusp (length text)) text))))
+  (flet ((given (name)
+           (let ((text (core-environment name))) (and text (plusp (length text)) text))))
     (or (given "XDG_CACHE_HOME")
         (and (given "HOME") (concatenate 'string (given "HOME") "/.cache")))))
 
