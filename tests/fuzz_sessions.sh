@@ -8,6 +8,8 @@ root=$here/..
 . "$here/check"
 count=${1:-24}
 first=${2:-1}
+work=$(mktemp -d) && cd "$work" || exit 1
+trap 'rm -rf "$work"' EXIT
 
 # session FOLDER SEED: the answers are in FOLDER/answers, what was done to the session in FOLDER/hostile.
 session() {
@@ -30,7 +32,7 @@ fuzz_sessions() { # COUNT SEED
       cmp -s "$archive" "$seed/${archive#*/}" || echo "${archive#*/}"
     done >"$seed/differ"
     check "seed $seed: the archives" "$(cat "$seed/differ")" ""
-    [ -s "$seed/differ" ] || [ -n "$difference" ] || rm -rf "$seed"
+    rm -rf "$seed"
   done
 }
 

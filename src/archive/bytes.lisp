@@ -45,27 +45,14 @@
 (defun archive-file-kind-by-test (name)
   "As archive-file-kind, by the shell's test: GCL's own stat cannot tell a pipe from a file."
   (flet ((holds (flag)
-                (zerop (archive-shell-status (format nil "test ~a ~a" flag
-                                                     (archive-shell-quoted name))))))
+                (zerop (core-shell-status (format nil "test ~a ~a" flag
+                                                     (core-shell-quoted name))))))
     (cond ((holds "-f") :regular)
           ((holds "-d") :folder)
           ((holds "-p") :pipe)
           ((holds "-S") :socket)
           ((holds "-e") :device)
           (t :missing))))
-
-#-sbcl
-(defun archive-shell-quoted (name)
-  "NAME between single quotes, as the shell takes it literally."
-  (with-output-to-string (out)
-    (write-char #\' out)
-    (loop for c across name do (if (char= c #\') (write-string "'\\''" out) (write-char c out)))
-    (write-char #\' out)))
-
-#-sbcl
-(defun archive-shell-status (command)
-  #+gcl (let ((status (si::system command))) (if (consp status) (car status) status))
-  #-gcl (nth-value 2 (uiop:run-program command :ignore-error-status t)))
 
 (defun archive-refuse-kind (name kind)
   "An error that says why the file NAME of KIND is not read."
@@ -119,8 +106,8 @@ wild cards: a file so named is read from a copy, which has no name any more once
                    (format nil "~a/dynarch-~d-~d" $maxima_tempdir (get-internal-real-time)
                            (random 1000000)))))
     (unless plain
-      (archive-shell-status (format nil "umask 077; head -c ~d -- ~a > ~a" (1+ *archive-file-size*)
-                                    (archive-shell-quoted name) (archive-shell-quoted copy))))
+      (core-shell-status (format nil "umask 077; head -c ~d -- ~a > ~a" (1+ *archive-file-size*)
+                                    (core-shell-quoted name) (core-shell-quoted copy))))
     (let ((stream (ignore-errors (open (archive-native-path copy) :element-type
                                        '(unsigned-byte 8)))))
       (unless plain (ignore-errors (delete-file copy)))

@@ -23,12 +23,13 @@
   #+sbcl
   (zerop (archive-c-call "rename" sb-alien:int (sb-alien:c-string from) (sb-alien:c-string to)))
   #+gcl (si::rename from to)
-  #-(or sbcl gcl) (rename-file from (make-pathname :type :unspecific :defaults to)))
+  #+ecl (rename-file from to :if-exists t)
+  #-(or sbcl gcl ecl) (rename-file from (make-pathname :type :unspecific :defaults to)))
 
 (defun archive-unlink (name)
   #+sbcl (archive-c-call "unlink" sb-alien:int (sb-alien:c-string name))
   #+gcl (si::unlink name)
-  #-(or sbcl gcl) (delete-file name))
+  #-(or sbcl gcl) (and (probe-file name) (delete-file name)))
 
 (defun archive-may-write-p (name)
   "Whether the file NAME may be written as far as its mode says."
@@ -40,9 +41,9 @@
   #+sbcl (multiple-value-bind (found device inode mode links) (sb-unix:unix-stat name)
            (declare (ignore device inode mode))
            (and found (> links 1)))
-  #-sbcl (zerop (archive-shell-status
+  #-sbcl (zerop (core-shell-status
                  (format nil "test \"$(stat -L -c %h -- ~a)\" -gt 1 2>/dev/null"
-                         (archive-shell-quoted name)))))
+                         (core-shell-quoted name)))))
 
 (defun archive-copy-mode (from to)
   "Gives the file TO the permissions and, where it may be, the owner of FROM."
@@ -54,9 +55,9 @@
                              (sb-alien:unsigned-int gid))
              (archive-c-call "chmod" sb-alien:int (sb-alien:c-string to)
                              (sb-alien:unsigned-int (logand mode #o7777)))))
-  #-sbcl (archive-shell-status (format nil "chmod --reference=~a ~a 2>/dev/null"
-                                       (archive-shell-quoted from)
-                                       (archive-shell-quoted to))))
+  #-sbcl (core-shell-status (format nil "chmod --reference=~a ~a 2>/dev/null"
+                                       (core-shell-quoted from)
+                                       (core-shell-quoted to))))
 
 (defun archive-sync (stream)
   "What was written to STREAM is on the disk when this returns."

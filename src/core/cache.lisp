@@ -17,19 +17,26 @@
 
 ;;; Whose are they
 
+#-sbcl
+(defun core-shell-quoted (name)
+  "NAME between single quotes, as the shell takes it literally."
+  (with-output-to-string (out)
+    (write-char #\' out)
+    (loop for c across name do (if (char= c #\') (write-string "'\\''" out) (write-char c out)))
+    (write-char #\' out)))
+
+#-sbcl
+(defun core-shell-status (command)
+  "The exit status of a command of the shell. (For Lisps that cannot ask about files.)"
+  #+gcl (let ((status (si::system command))) (if (consp status) (car status) status))
+  #+ecl (ash (ext:system command) -8)
+  #-(or gcl ecl) (nth-value 2 (uiop:run-program command :ignore-error-status t)))
+
+#-sbcl
 (defun core-shell (control &rest names)
-  "Whether the shell command CONTROL ends well; NAMES are put in quoted. (Lisps without stat.)"
-  (flet ((quoted (name)
-           (with-output-to-string (out)
-             (write-char #\' out)
-             (loop for c across name
-                   do (if (char= c #\') (write-string "'\\''" out) (write-char c out)))
-             (write-char #\' out))))
-    (let ((command (apply #'format nil control (mapcar #'quoted names))))
-      (declare (ignorable command))
-      #+gcl (eql 0 (si::system command))
-      #+ecl (eql 0 (ext:system command))
-      #-(or gcl ecl) nil)))
+  "Whether the shell command CONTROL ends well; NAMES are put in quoted."
+  (eql 0 (core-shell-status
+          (apply #'format nil control (mapcar #'core-shell-quoted names)))))
 
 #+sbcl
 (defvar *core-effective-user*
@@ -72,7 +79,8 @@ his own."
 
 (defun core-cache-base ()
   "The folder that holds caches of the user; nil where he has no home."
-  (flet ((given (name) (let ((text (core-environment name))) (and text (plusp (length text)) text))))
+  (flet ((given (name)
+           (let ((text (core-environment name))) (and text (plusp (length text)) text))))
     (or (given "XDG_CACHE_HOME")
         (and (given "HOME") (concatenate 'string (given "HOME") "/.cache")))))
 

@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The guard around every computation: a clean session, facts in a context of their own, no question
-;;; asked; and everything as it was afterwards, errors included.
+;;; The guard around every computation: a clean session, facts in a context of their own, no
+;;; question asked; and everything as it was afterwards, errors included.
 
 (in-package :maxima)
 

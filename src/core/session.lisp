@@ -133,8 +133,8 @@ default is to print a line."
   (core-property-subset plist (complement #'core-lasting-p)))
 
 (defun core-internal-p (symbol)
-  "Whether SYMBOL is one of Maxima's own that its table of properties at birth leaves out: the inside
-of abs, [..], lambda, true, ..."
+  "Whether SYMBOL is one of Maxima's own that its table of properties at birth leaves out: the
+inside of abs, [..], lambda, true, ..."
   (and (not (find (char (symbol-name symbol) 0) "$%"))
        (not (nth-value 1 (core-born-properties symbol)))))
 
@@ -202,8 +202,8 @@ removes, rules before their simplifier, the derivative of abs."
                               (not (fboundp symbol)))
                       collect (core-spelling symbol))))
     (when lost
-      (core-say (format nil "dynarch: ~{~a~^, ~}: defined anew in this session, which Maxima cannot ~
-                             undo; results may fail. Load the packages first" lost)))))
+      (core-say (format nil "dynarch: ~{~a~^, ~}: defined anew in this session, which Maxima ~
+                             cannot undo; results may fail. Load the packages first" lost)))))
 
 (defun core-with-functions (functions function)
   "Calls FUNCTION while each (symbol . definition) of FUNCTIONS holds; a symbol without a definition
@@ -223,7 +223,8 @@ has none."
           collect (cons name definition)))
 
 (defun core-callable-p (symbol)
-  "Whether SYMBOL is the name of a rule or of a translated function of the user: a function of Lisp."
+  "Whether SYMBOL is the name of a rule or of a translated function of the user, functions of
+Lisp."
   (and (fboundp symbol) (not (macro-function symbol))
        (not (nth-value 1 (core-born-properties symbol)))
        (or (member symbol (cdr $rules)) (get symbol 'translated))))
@@ -314,3 +315,5 @@ them as typed, and are simplified anew."
   (let ((ordered (or greatorder lessorder)) (typed (mapcar #'core-typed-names arguments)))
     (core-clean (lambda ()
                   (apply function (if ordered (mapcar #'resimplify typed) arguments))))))
+
+(setq *core-reading* #'core-clean)
