@@ -144,9 +144,10 @@
   :forms '(("equations" "equations" "integrals" "variables"))
   :options '("where" "unknowns" "multipliers") :kinds '("equations" "poisson"))
 (core-rule "RouthLyapunov" '("equations" "poisson") "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov"
+  "analysis_routh_lyapunov_on"
   "state_equations" "known_integrals" "variables" *analysis-unknowns* *analysis-where*
-  *analysis-laws* (list "multipliers" *analysis-none*))
+  *analysis-laws* (list "multipliers" *analysis-none*) (list "level" *analysis-none*)
+  (list "solution" *analysis-none*))
 
 ;;; Matrices and forms
 

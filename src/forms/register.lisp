@@ -155,5 +155,6 @@
 
 (core-rule "poisson_equations" '("poisson") "forms/poisson" "forms_poisson_equations"
   "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))) "hamiltonian")
-(core-rule "poisson_integrals" '("poisson") "forms/poisson" "forms_poisson_integrals"
-  "hamiltonian" '("integrals" ((mlist simp))))
+(core-rule "poisson_integrals" '("poisson") "forms/casimirs" "forms_poisson_integrals"
+  "hamiltonian" '("integrals" ((mlist simp)))
+  "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))))
