@@ -31,7 +31,9 @@ session() {
     calls | awk '{ printf "plainly(\"%d\", errcatch(%s))$\n", NR, $0 }'
   } >"$1/session.mac"
   (cd "$1" && "$root/tools/maxima" --very-quiet <session.mac >answers 2>&1)
-  (cd "$1" && awk '/^== [0-9]+$/ { printf "%s", text >$2; text = ""; next } { text = text $0 "\n" }' answers)
+  (cd "$1" && awk '/^== [0-9]+$/ { printf "%s", text >$2; text = ""; next }
+                         /(computing|reading).*, [0-9]+ s *$/ { next } # progress tells the time
+                         { text = text $0 "\n" }' answers)
 }
 
 session clean '' &
