@@ -25,7 +25,10 @@
     (sort names #'string< :key #'symbol-name)))
 
 (defun snapshot-copy (value)
-  (if (consp value) (copy-tree value) value))
+  "VALUE to compare with later ones; a stream prints its address, which the collector changes."
+  (cond ((consp value) (copy-tree value))
+        ((streamp value) 'stream)
+        (t value)))
 
 (defun $snapshot ()
   "An opaque picture of the session."

@@ -101,8 +101,14 @@
         (core-fault section (archive-key-name key) "~a" (archive-mismatch key value trouble))
         converted)))
 
+(defun archive-default-given-p (group key)
+  "Whether the value of KEY in GROUP is its default, typed."
+  (alike1 (archive-statement-value (archive-find-statement group (archive-key-name key)))
+          (archive-default-value key)))
+
 (defun archive-check-companion (group key)
-  "An error where KEY, which is given, would have no effect beside the other keys of GROUP."
+  "An error where KEY, given with another value than its default, would have no effect beside the
+other keys of GROUP."
   (let* ((default (archive-key-default key)) (name (archive-key-name key))
          (section (archive-group-section group)))
     (destructuring-bind (&optional condition other value) (if (consp default) default '())
@@ -111,7 +117,7 @@
                  (core-fault section name "~a has an effect with ~a = ~a only; write ~a = ~a, or ~
                                            leave ~a out"
                              name other value other value name)))
-        (:with (unless (archive-given-p group other)
+        (:with (unless (or (archive-given-p group other) (archive-default-given-p group key))
                  (core-fault section name "~a has an effect beside ~a only; leave it out, or give ~
                                            ~a" name other other)))
         (:unless (when (and (archive-given-p group other) (null value))

@@ -104,12 +104,14 @@ its options choose, and the conditions of those that they do not."
                     append (archive-condition-sources (rule-given other)))))))
 
 (defun archive-option-counts-p (call option names)
-  "Whether OPTION counts where the quantities NAMES do."
+  "Whether OPTION counts where the quantities NAMES do. `values' count for the remark on what is
+neglected in a field."
   (or (member option (archive-always-options call) :test #'string=)
       (member option names :test #'equal)
       (and (archive-call-archive call)
            (member "description" names :test #'equal)
-           (archive-counts-p "system" option (archive-call-kind call) '("*")))))
+           (or (and (string= option "values") (eq (archive-key-value call "field") '$newton))
+               (archive-counts-p "system" option (archive-call-kind call) '("*"))))))
 
 (defun archive-always-options (call)
   "Options that every call takes."
