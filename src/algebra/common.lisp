@@ -11,7 +11,7 @@
 
 (defun algebra-maxima-rational (r)
   "The rational R as Maxima holds it."
-  (div (numerator r) (denominator r)))
+  (if (integerp r) r (list '(rat simp) (numerator r) (denominator r))))
 
 (defun algebra-prime-factors (n)
   "(prime power prime power ..); a large N counts as one prime."

@@ -90,10 +90,7 @@
 
 (defun algebra-exact (e)
   "E with its floating numbers as the fractions that they print as."
-  (cond ((floatp e) (let ((number (rationalize e)))
-                      (if (integerp number)
-                          number
-                          (list '(rat simp) (numerator number) (denominator number)))))
+  (cond ((floatp e) (algebra-maxima-rational (rationalize e)))
         ((atom e) e)
         (t (cons (remove 'simp (car e)) (mapcar #'algebra-exact (cdr e))))))
 

@@ -84,7 +84,7 @@ functions and a matrix to others."
   "An error unless VALUE can be the argument or option NAME in a call of KIND."
   (let ((row (archive-argument-row (archive-argument-type name kind))))
     (when row
-      (let ((trouble (catch 'archive-unfitd (funcall (second row) value) nil)))
+      (let ((trouble (catch 'archive-unfit (funcall (second row) value) nil)))
         (when trouble
           (core-error "~a must be ~a, found ~a~:[; ~a~;~]" name (third row)
                       (archive-argument-shown value) (string= trouble "") trouble))))))

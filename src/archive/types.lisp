@@ -54,12 +54,12 @@
 
 (defun archive-unfit (&optional (control "") &rest arguments)
   "Leave archive-typed: the value is not of its type; CONTROL may say which part of it."
-  (throw 'archive-unfitd (apply #'format nil control arguments)))
+  (throw 'archive-unfit (apply #'format nil control arguments)))
 
 (defun archive-typed (type value)
   "VALUE as TYPE wants it and nil, or nil and a text, possibly empty, on the part at fault."
   (let* ((converted nil)
-         (trouble (catch 'archive-unfitd
+         (trouble (catch 'archive-unfit
                     (setf converted (funcall (archive-type-function type) value))
                     nil)))
     (if trouble (values nil trouble) (values converted nil))))
