@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/nearest"))
+  (core-require "core/nearest"))
 
 (defparameter *archive-version* 1)
 
@@ -166,7 +166,7 @@
 (defun archive-one-of (value words)
   "VALUE, a symbol spelled as one of WORDS; the nearest word is named otherwise."
   (let* ((word (if (and (symbolp value) value) (core-spelling value) ""))
-         (near (archive-nearest word words)))
+         (near (core-nearest word words)))
     (cond ((member word words :test #'string=) value)
           (near (archive-unfit "did you mean ~a?" near))
           (t (archive-unfit)))))
