@@ -41,7 +41,4 @@
   (core-error "the decimal ~A came into exact mathematics; type a fraction" (algebra-short-text e)))
 
 (defun algebra-short-text (e)
-  (let ((text (coerce (mstring e) 'string)))
-    (if (> (length text) 60)
-        (concatenate 'string (subseq text 0 57) "...")
-        text)))
+  (core-cut (coerce (mstring e) 'string)))

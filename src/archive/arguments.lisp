@@ -91,8 +91,7 @@ functions and a matrix to others."
 
 (defun archive-argument-shown (value)
   "VALUE as Maxima spells it, cut after sixty letters."
-  (let ((text (if (stringp value) (format nil "~s" value) (core-words (list value)))))
-    (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text)))
+  (core-cut (if (stringp value) (format nil "~s" value) (core-words (list value)))))
 
 (defun archive-formula-p (value)
   (and (archive-expression-p value)

@@ -69,8 +69,7 @@
 
 (defun archive-value-shown (value)
   "VALUE as an archive would spell it, cut after sixty letters."
-  (let ((text (if (stringp value) (format nil "~s" value) (archive-spelled value))))
-    (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text)))
+  (core-cut (if (stringp value) (format nil "~s" value) (archive-spelled value))))
 
 (defun archive-spelled (value)
   "VALUE as the archive's writer spells it; a form that it does not know as Maxima does."
