@@ -17,7 +17,7 @@
   (let ((archive (archive-check-list list)))
     (test-list (archive-free-symbols (archive-kind archive) (archive-description archive)))))
 
-(defun $test_nearest (name known) (archive-nearest name (cdr known)))
+(defun $test_nearest (name known) (core-nearest name (cdr known)))
 
 (defun $test_key (kind section name)
   "The type, the default and whether an option may overrule the key NAME."

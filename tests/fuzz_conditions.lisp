@@ -29,7 +29,7 @@ negative real parts: Routh's reduction of the degree by one."
 
 (defun conditions-polynomial (a x)
   (addn (loop for c in a for power downfrom (1- (length a))
-              collect (mul (algebra-maxima-number c) (power x power)))
+              collect (mul (algebra-maxima-rational c) (power x power)))
         nil))
 
 (defun conditions-real-negative-p (a)

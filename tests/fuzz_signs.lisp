@@ -73,14 +73,14 @@
 (defun signs-expression ()
   "A short sum for a fact."
   (case (signs-random 9)
-    ((0 1 6 7 8) (sub (signs-choice *signs-names*) (algebra-maxima-number (signs-number))))
+    ((0 1 6 7 8) (sub (signs-choice *signs-names*) (algebra-maxima-rational (signs-number))))
     (2 (signs-choice *signs-names*))
     (3 (sub (signs-choice *signs-names*) (signs-choice *signs-names*)))
     (4 (add (signs-choice *signs-names*) (mul (signs-number-m) (signs-choice *signs-names*))
             (signs-number-m)))
     (t (add (mul (signs-choice *signs-names*) (signs-choice *signs-names*)) (signs-number-m)))))
 
-(defun signs-number-m () (algebra-maxima-number (signs-number)))
+(defun signs-number-m () (algebra-maxima-rational (signs-number)))
 
 (defun signs-fact (point)
   "A relation that holds at POINT."
@@ -185,7 +185,7 @@
 
 (defun signs-shown (point)
   (cons '(mlist simp) (loop for (name . value) in point
-                            collect (list '(mequal simp) name (algebra-maxima-number value)))))
+                            collect (list '(mequal simp) name (algebra-maxima-rational value)))))
 
 (defun signs-failures (count seed function)
   "What FUNCTION finds wrong in COUNT cases from SEED; errors count."

@@ -78,7 +78,8 @@ nil where there is none."
 
 (defun algebra-roots-between (e low high)
   "How many real roots E has in (LOW, HIGH], by Sturm's chain; exact."
-  (flet ((point (bound otherwise) (if bound (cons (numerator bound) (denominator bound)) otherwise)))
+  (flet ((point (bound otherwise)
+           (if bound (cons (numerator bound) (denominator bound)) otherwise)))
     (let ((varlist nil) ($keepfloat nil) ($ratfac nil))
       (nroots (unipoly e e) (point low -1) (point high 1)))))
 
@@ -89,12 +90,7 @@ nil where there is none."
         finally (return k)))
 
 (defun algebra-number-sign-at (e x number)
-  (algebra-constant-sign (maxima-substitute (algebra-maxima-number number) x e)))
-
-(defun algebra-maxima-number (number)
-  (if (integerp number)
-      number
-      (list '(rat simp) (numerator number) (denominator number))))
+  (algebra-constant-sign (maxima-substitute (algebra-maxima-rational number) x e)))
 
 (defun algebra-point-between (low high)
   (cond ((and low high) (/ (+ low high) 2))

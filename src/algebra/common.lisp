@@ -11,7 +11,7 @@
 
 (defun algebra-maxima-rational (r)
   "The rational R as Maxima holds it."
-  (div (numerator r) (denominator r)))
+  (if (integerp r) r (list '(rat simp) (numerator r) (denominator r))))
 
 (defun algebra-prime-factors (n)
   "(prime power prime power ..); a large N counts as one prime."
@@ -41,7 +41,4 @@
   (core-error "the decimal ~A came into exact mathematics; type a fraction" (algebra-short-text e)))
 
 (defun algebra-short-text (e)
-  (let ((text (coerce (mstring e) 'string)))
-    (if (> (length text) 60)
-        (concatenate 'string (subseq text 0 57) "...")
-        text)))
+  (core-cut (coerce (mstring e) 'string)))

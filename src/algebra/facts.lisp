@@ -34,7 +34,7 @@
 (defun algebra-learned (facts)
   (let* ((knowledge (make-algebra-knowledge :facts facts))
          (*algebra-knowledge* knowledge)
-         (products (loop for fact in facts append (algebra-fact-product fact))))
+         (products (algebra-fact-products facts)))
     (algebra-learn-all products)
     (when (algebra-learn-names) (algebra-learn-all products))
     (clrhash (knowledge-memo knowledge))
@@ -71,16 +71,35 @@
   "Changes whenever something is learned."
   (list (mapcar #'cdr (knowledge-items knowledge)) (mapcar #'cdr (knowledge-sums knowledge))))
 
+;;; The sign of a factor of a radicand, asked while a normal form or a zero test is under way
+
+(defun algebra-sign-in-root (e)
+  "By what is known of its parts; while the facts are learned, by what came so far."
+  (let ((*algebra-knowledge* (or *algebra-knowledge* (algebra-known-apart))))
+    (algebra-part-sign e)))
+
+(defun algebra-known-apart ()
+  "What is known, its normal forms not those of the zero test, and none of them given up."
+  (let ((*algebra-may-give-up* nil) (*algebra-roots-apart* nil)
+        (*algebra-exponential-form* nil) (*algebra-every-multiple* nil))
+    (algebra-what-is-known)))
+
+(setq *algebra-sign-judge* 'algebra-sign-in-root)
+
 ;;; A relation as a product of factors with a sign
 
 (defun algebra-exact (e)
   "E with its floating numbers as the fractions that they print as."
-  (cond ((floatp e) (let ((number (rationalize e)))
-                      (if (integerp number)
-                          number
-                          (list '(rat simp) (numerator number) (denominator number)))))
+  (cond ((floatp e) (algebra-maxima-rational (rationalize e)))
         ((atom e) e)
         (t (cons (remove 'simp (car e)) (mapcar #'algebra-exact (cdr e))))))
+
+(defun algebra-fact-products (facts)
+  "Those of all FACTS, each learned when it is met: with the signs of names roots get shorter."
+  (loop for fact in (stable-sort (copy-list facts) #'< :key #'algebra-size)
+        for product = (algebra-fact-product fact)
+        do (mapc #'algebra-learn-product product)
+        append product))
 
 (defun algebra-fact-product (fact)
   "((sign (factor . power) ..)), or nothing where FACT is no formula."

@@ -81,13 +81,10 @@
           until (= k 0))
     (intern (concatenate 'string stem digits) :maxima)))
 
-(defun algebra-written-number (x)
-  (if (integerp x) x (list '(rat simp) (numerator x) (denominator x))))
-
 (defun algebra-written-element (element names)
   (if (algebra-node-p element)
       (gethash (algebra-node-index element) names)
-      (algebra-written-number element)))
+      (algebra-maxima-rational element)))
 
 (defun algebra-written-node (node written)
   (let ((x (funcall written (algebra-node-left node)))
@@ -185,7 +182,7 @@
       (let ((values (algebra-program-values (algebra-all-outputs outputs) (algebra-point point)
                                             exactly)))
         (flet ((next (element) (declare (ignore element))
-                 (let ((x (pop values))) (if (rationalp x) (algebra-written-number x) x))))
+                 (let ((x (pop values))) (if (rationalp x) (algebra-maxima-rational x) x))))
           (cons '(mlist simp)
                 (loop for (name . value) in outputs
                       collect (algebra-field name (algebra-written-output value #'next)))))))))

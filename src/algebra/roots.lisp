@@ -11,6 +11,7 @@
   (core-require "algebra/size" "algebra/kernels" "algebra/nouns" "algebra/numbers"))
 
 (defvar *algebra-roots-apart* nil "true: roots of products become products of roots where allowed")
+(defvar *algebra-sign-judge* nil "the sign of what is no number, by the facts; set by facts.lisp")
 
 (defun algebra-root (base degree scan)
   "The skeleton of base^(1/degree)."
@@ -84,7 +85,9 @@
 (defun algebra-known-sign (e)
   (if ($constantp e)
       (case (algebra-constant-verdict e) (1 '$pos) (-1 '$neg) (0 '$zero) (t '$unknown))
-      (algebra-quietly (lambda () ($sign e)))))
+      (algebra-quietly (lambda ()
+                         (core-require "algebra/facts")
+                         (funcall *algebra-sign-judge* e)))))
 
 (defun algebra-absolute (e scan)
   "The skeleton of |e|."

@@ -84,15 +84,14 @@ functions and a matrix to others."
   "An error unless VALUE can be the argument or option NAME in a call of KIND."
   (let ((row (archive-argument-row (archive-argument-type name kind))))
     (when row
-      (let ((trouble (catch 'archive-unfitd (funcall (second row) value) nil)))
+      (let ((trouble (catch 'archive-unfit (funcall (second row) value) nil)))
         (when trouble
           (core-error "~a must be ~a, found ~a~:[; ~a~;~]" name (third row)
                       (archive-argument-shown value) (string= trouble "") trouble))))))
 
 (defun archive-argument-shown (value)
   "VALUE as Maxima spells it, cut after sixty letters."
-  (let ((text (if (stringp value) (format nil "~s" value) (core-words (list value)))))
-    (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text)))
+  (core-cut (if (stringp value) (format nil "~s" value) (core-words (list value)))))
 
 (defun archive-formula-p (value)
   (and (archive-expression-p value)

@@ -40,7 +40,7 @@
 
 (defun archive-unknown-advice (kind word name)
   "What to tell of the unknown key NAME."
-  (let ((near (archive-nearest name (archive-key-names kind word)))
+  (let ((near (core-nearest name (archive-key-names kind word)))
         (kinds (archive-key-kinds-of word name)))
     (cond (kinds (format nil "it is a key of the kind~:[~;s~] ~{~a~^, ~}" (cdr kinds) kinds))
           (near (format nil "did you mean ~a?" near))
@@ -60,7 +60,7 @@
          (names (archive-key-names kind word))
          (meant (find-if (lambda (statement)
                            (equal (archive-key-name key)
-                                  (archive-nearest (archive-statement-key statement) names)))
+                                  (core-nearest (archive-statement-key statement) names)))
                          (archive-unknown-statements kind group))))
     (core-fault (archive-group-section group) nil "the key ~a is missing~a; ~a"
                 (archive-key-name key) reason
@@ -180,8 +180,8 @@ other keys of GROUP."
 (defun archive-warn-section (kind group)
   (let* ((section (archive-group-section group))
          (row (archive-section-row (archive-section-word section)))
-         (near (archive-nearest (archive-section-word section)
-                                (mapcar #'first (archive-sections-of kind)))))
+         (near (core-nearest (archive-section-word section)
+                             (mapcar #'first (archive-sections-of kind)))))
     (core-warn "~@[line ~d: ~]unknown section [~a]; ~a" (archive-group-line group) section
                (cond ((and row (archive-section-row-of kind section))
                       (format nil "it is written [~a]" (archive-heading row)))
@@ -225,7 +225,7 @@ other keys of GROUP."
 
 (defun archive-fault-section (section count groups)
   "The section that BODIES asks for is missing; a misspelt one is named."
-  (let ((meant (archive-nearest section (mapcar #'archive-group-section groups))))
+  (let ((meant (core-nearest section (mapcar #'archive-group-section groups))))
     (core-fault "system" "bodies"
                 "bodies = ~d, and section [~a] is missing~@[; is [~a] meant for it?~]" count
                 section
@@ -308,7 +308,7 @@ other keys of GROUP."
 
 (defun archive-system-group (kind groups)
   "The group [system]; an empty one where it is left out and nothing in it is required."
-  (let ((meant (archive-nearest "system" (mapcar #'archive-group-section groups))))
+  (let ((meant (core-nearest "system" (mapcar #'archive-group-section groups))))
     (cond ((archive-find-group groups "system"))
           ((or meant (archive-system-needed-p kind))
            (core-error "there is no section [system]~@[; is [~a] meant for it?~]" meant))

@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/types" "archive/nearest"))
+  (core-require "archive/types" "core/nearest"))
 
 (defparameter *archive-analysis-keys*
   '("title" "where" "abbreviations" "unknowns" "solution" "values" "start" "time")

@@ -150,7 +150,7 @@ neglected in a field."
 
 (defun archive-refused-option (call name taken)
   "What to say of an option NAME that is not one of those TAKEN."
-  (let ((near (archive-nearest name taken)))
+  (let ((near (core-nearest name taken)))
     (cond ((archive-argument-p call name) (format nil "~a is an argument already" name))
           ((archive-option-elsewhere-p call name)
            (format nil "the option ~a has no effect in this call" name))

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/nearest"))
+  (core-require "core/nearest"))
 
 (defparameter *archive-version* 1)
 
@@ -54,12 +54,12 @@
 
 (defun archive-unfit (&optional (control "") &rest arguments)
   "Leave archive-typed: the value is not of its type; CONTROL may say which part of it."
-  (throw 'archive-unfitd (apply #'format nil control arguments)))
+  (throw 'archive-unfit (apply #'format nil control arguments)))
 
 (defun archive-typed (type value)
   "VALUE as TYPE wants it and nil, or nil and a text, possibly empty, on the part at fault."
   (let* ((converted nil)
-         (trouble (catch 'archive-unfitd
+         (trouble (catch 'archive-unfit
                     (setf converted (funcall (archive-type-function type) value))
                     nil)))
     (if trouble (values nil trouble) (values converted nil))))
@@ -69,8 +69,7 @@
 
 (defun archive-value-shown (value)
   "VALUE as an archive would spell it, cut after sixty letters."
-  (let ((text (if (stringp value) (format nil "~s" value) (archive-spelled value))))
-    (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text)))
+  (core-cut (if (stringp value) (format nil "~s" value) (archive-spelled value))))
 
 (defun archive-spelled (value)
   "VALUE as the archive's writer spells it; a form that it does not know as Maxima does."
@@ -166,7 +165,7 @@
 (defun archive-one-of (value words)
   "VALUE, a symbol spelled as one of WORDS; the nearest word is named otherwise."
   (let* ((word (if (and (symbolp value) value) (core-spelling value) ""))
-         (near (archive-nearest word words)))
+         (near (core-nearest word words)))
     (cond ((member word words :test #'string=) value)
           (near (archive-unfit "did you mean ~a?" near))
           (t (archive-unfit)))))

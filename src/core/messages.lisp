@@ -23,6 +23,10 @@
            (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string)))
                    items))))
 
+(defun core-cut (text)
+  "TEXT, cut after sixty letters."
+  (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text))
+
 (defun core-signal (text)
   (merror "~A" (if *core-function* (concatenate 'string *core-function* ": " text) text)))
 

@@ -4,7 +4,7 @@
 
 (in-package :maxima)
 
-(defun archive-edit-distance (a b)
+(defun core-edit-distance (a b)
   "How many letters must be put in, left out, exchanged or swapped with their neighbour to make B
 of A."
   (let* ((m (length a)) (n (length b)) (d (make-array (list (1+ m) (1+ n)) :initial-element 0)))
@@ -17,10 +17,10 @@ of A."
                                  (1+ (aref d i (1- j)))
                                  (+ (aref d (1- i) (1- j))
                                     (if (char-equal (char a (1- i)) (char b (1- j))) 0 1))
-                                 (archive-swap-distance a b d i j)))))
+                                 (core-swap-distance a b d i j)))))
     (aref d m n)))
 
-(defun archive-swap-distance (a b d i j)
+(defun core-swap-distance (a b d i j)
   "The distance by way of two letters that are swapped, or one too large to matter."
   (if (and (> i 1) (> j 1)
            (char-equal (char a (1- i)) (char b (- j 2)))
@@ -28,20 +28,20 @@ of A."
       (1+ (aref d (- i 2) (- j 2)))
       (+ i j)))
 
-(defun archive-nearest (name known)
+(defun core-nearest (name known)
   "The one of the KNOWN names that NAME is most likely meant to be, or nil. Long names only: 200
 letters are no misprint."
   (when (<= (length name) 40)
     (let ((best nil) (least (1+ (max 1 (floor (length name) 3)))))
       (dolist (candidate known best)
-        (let ((distance (archive-edit-distance name candidate)))
+        (let ((distance (core-edit-distance name candidate)))
           (when (< distance least)
             (setf best candidate least distance)))))))
 
-(defun $archive_nearest (name known)
+(defun $core_nearest (name known)
   "The one of the Maxima list KNOWN that the symbol NAME is most likely meant to be, or false. To a
 single letter every other one is as near."
   (let* ((word (core-spelling name))
          (near (and (> (length word) 1)
-                    (archive-nearest word (mapcar #'core-spelling (cdr known))))))
+                    (core-nearest word (mapcar #'core-spelling (cdr known))))))
     (and near (find near (cdr known) :key #'core-spelling :test #'string=))))
