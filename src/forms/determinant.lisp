@@ -28,9 +28,12 @@
           finally (return determinant))))
 
 (defun $forms_determinant_value (matrix point)
-  "The value at POINT, as for forms_value; false where an entry has none."
-  (let* ((place (forms-given-point point))
-         (rows (catch 'forms-no-value
-                 (loop for row in (cdr matrix)
-                       collect (loop for e in (cdr row) collect (forms-fixed-value e place))))))
-    (and rows (div (forms-eliminated-determinant rows) (forms-fixed 1)))))
+  "The value at POINT, as for forms_value; false where an entry or a product has none."
+  (let ((value (catch 'forms-no-value
+                 (forms-determinant-at (mapcar #'cdr (cdr matrix)) (forms-given-point point)))))
+    (and value (div value (forms-fixed 1)))))
+
+(defun forms-determinant-at (rows point)
+  (forms-eliminated-determinant
+   (loop for row in rows
+         collect (loop for e in row collect (forms-fixed-value e point)))))
