@@ -86,6 +86,26 @@
                            nil))
                      "a power"))))
 
+;;; Powers of numbers
+
+(defparameter *algebra-most-digits* 100000 "decimal digits that a power of numbers may have")
+
+(defun algebra-guard-power-of-number (base exponent)
+  "An error where BASE^EXPONENT is a number too long to be computed."
+  (let ((n (algebra-larger-part base)) (k (algebra-larger-part exponent)))
+    (when (and n k (> n 1))
+      (let ((digits (floor (* k (integer-length (1- n)) 30103) 100000)))
+        (when (> digits *algebra-most-digits*)
+          (setq *core-too-large* t)
+          (core-error "~A would have about ~A digits, more than the ~A that are safe"
+                      (core-words (list (list '(mexpt simp) base exponent)))
+                      (algebra-about digits) *algebra-most-digits*))))))
+
+(defun algebra-larger-part (number)
+  "The larger one of numerator and denominator of a rational NUMBER, else nil."
+  (cond ((integerp number) (abs number))
+        ((ratnump number) (max (abs (cadr number)) (caddr number)))))
+
 (defun algebra-binomial (n k)
   (let ((product 1))
     (loop for i from 1 to (min k (- n k))

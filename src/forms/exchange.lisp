@@ -2,9 +2,13 @@
 ;;; Finding the time derivatives 'diff(q,t,n) in an expression, and exchanging names and these for
 ;;; other expressions, all at once. subst() goes through the expression once for each of them,
 ;;; breaks 'diff(q,t) when it puts in a value for q, and takes the variable of an integral for
-;;; something of its own. How nouns with variables of their own are served: bound.lisp.
+;;; something of its own. How nouns with variables of their own are served: bound.lisp; piecewise
+;;; is the piece whose condition is seen to hold: pieces.lisp. Powers of numbers are predicted.
 
 (in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/size" "forms/pieces"))
 
 (defun forms-derivative-p (e)
   "True for 'diff(q,t,n) where q is a name, possibly with a subscript."
@@ -60,9 +64,10 @@
   (forms-with-parts e (mapcar (lambda (part) (forms-exchange part pairs)) (cdr e))))
 
 (defun forms-with-parts (e parts)
-  (if (every #'eq parts (cdr e))
-      e
-      (simplifya (cons (remove 'simp (car e)) parts) nil)))
+  (cond ((every #'eq parts (cdr e)) e)
+        ((eq (caar e) '$piecewise) (forms-piecewise parts))
+        (t (when (eq (caar e) 'mexpt) (algebra-guard-power-of-number (first parts) (second parts)))
+           (simplifya (cons (remove 'simp (car e)) parts) nil))))
 
 (defun $forms_exchange (e pairs)
   "E with the right sides of PAIRS in place of their left sides (names and 'diff(q,t,n))."
