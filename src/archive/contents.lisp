@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; What stands in arguments that have the right shape: spellings that cannot mean what they say,
 ;;; as x(t) for a coordinate, Cos[th], inf; names that do not occur in what they belong to, where
-;;; equations 0 = 0 would come. Description lists are looked at for the spellings too.
+;;; equations 0 = 0 would come. Descriptions are looked at for the spellings too.
 ;;; Look first at archive-check-arguments.
 
 (in-package :maxima)
@@ -38,7 +38,9 @@
                (setq names
                      (append (cond ((member name '("coordinates" "variables") :test #'string=)
                                     (cdr value))
-                                   ((member name '("motion" "solution") :test #'string=)
+                                   ((member name '("motion" "solution" "inductances"
+                                                   "capacitances")
+                                            :test #'string=)
                                     (archive-lefts value)))
                              (archive-differentiated-names value)
                              names)))
@@ -51,6 +53,7 @@
   "What to say of a PART that cannot mean what it says where the names MOVING move, or nil."
   (cond ((member part '($inf $minf $infinity $und $ind)) "is no number")
         ((atom part) nil)
+        ((archive-head-p part '%derivative) (archive-strange-derivative part moving))
         ((archive-meant-function part)
          (format nil "is no function of Maxima; ~a?" (archive-meant-text part)))
         ((member 'array (cdar part))
@@ -60,6 +63,33 @@
          (format nil "has no place here: write ~a for the coordinate and 'diff(~:*~a,t) for its ~
                       velocity"
                  (core-spelling (caar part))))))
+
+;; 'diff(q,t) is a velocity, that of a formula is none: what moves in it would be taken as constant
+
+(defun archive-explicit-time-p (e)
+  "Whether t occurs in E, velocities aside."
+  (cond ((atom e) (eq e '$t))
+        ((archive-time-derivative-p e) nil)
+        (t (some #'archive-explicit-time-p (cdr e)))))
+
+(defun archive-partial-in-time-p (e)
+  "Whether 'diff(E,t) is a partial derivative that is not carried out, as of f(x,t) and max(x,t)."
+  (and (archive-explicit-time-p e)
+       (not (member (caar e) '(mplus mtimes mexpt mnctimes)))
+       (not (get (caar e) 'grad))))
+
+(defun archive-strange-derivative (part moving)
+  (destructuring-bind (e x &optional order &rest others) (cdr part)
+    (let ((inside (remove-if-not (lambda (x) (archive-occurs-p x e))
+                                 (remove-duplicates moving :test #'equal))))
+      (cond ((member e moving :test #'equal)
+             (unless (and (eq x '$t) (integerp order) (plusp order) (null others))
+               (format nil "is no derivative of ~a by the time t" (archive-argument-shown e))))
+            ((and inside (member '$t (cddr part)) (not (archive-variable-p e))
+                  (not (archive-partial-in-time-p e)))
+             (format nil "is the derivative of a formula; write it in velocities, as ~
+                          TimeDerivative(~a, [~{~a~^, ~}]) does" (archive-argument-shown e)
+                     (mapcar #'archive-argument-shown inside)))))))
 
 (defun archive-check-spellings (value moving fault)
   "Calls FAULT with a text for the first strange part of VALUE."
@@ -71,7 +101,7 @@
    value))
 
 (defun archive-check-description-spellings (description)
-  "An error for the first strange spelling in a DESCRIPTION list; its own functions are its own."
+  "An error for the first strange spelling in a DESCRIPTION; its own functions are its own."
   (let ((own (append (cdr ($core_get description '$functions '((mlist))))
                      (mapcar #'caar (archive-lefts ($core_get description '$laws '((mlist)))))))
         (moving (mapcar #'car (archive-moving-names description))))
@@ -192,12 +222,12 @@ others."
     (core-error "~a: found %i in ~a; real expressions are wanted" name
                 (archive-argument-shown value))))
 
-(defun archive-check-arguments (given kind)
+(defun archive-check-arguments (given kind &optional moving)
   "An error for the first of the arguments and options GIVEN, a table, that a call of KIND cannot
-take."
-  (let ((pairs (archive-given-pairs given)) (moving nil))
+take; MOVING are the names that move in the archive of the call."
+  (let ((pairs (archive-given-pairs given)))
     (loop for (name . value) in pairs do (archive-check-argument name value kind))
-    (setq moving (archive-moving-arguments given))
+    (setq moving (append moving (archive-moving-arguments given)))
     (loop for (name . value) in pairs
           do (archive-check-spellings value moving
                                       (lambda (text) (core-error "~a: ~a" name text)))
