@@ -216,6 +216,20 @@ others."
               collect (cons name value))
         #'string< :key #'car))
 
+;; Signs and zeros are those of real names
+
+(defun archive-complex-p (x)
+  "Whether the session says that the name X is complex, and does not say that it is real."
+  (and (archive-symbol-p x) (kindp x '$complex) (not (kindp x '$real))))
+
+(defun archive-check-names-real (name value)
+  (archive-map-parts
+   (lambda (part)
+     (when (archive-complex-p part)
+       (core-error "~a: ~a is declared complex or imaginary; real names are wanted" name
+                   (archive-argument-shown part))))
+   value))
+
 (defun archive-check-real (name value)
   (when (and (member name *archive-real-arguments* :test #'string=)
              (archive-occurs-p '$%i value))
@@ -231,6 +245,7 @@ take; MOVING are the names that move in the archive of the call."
     (loop for (name . value) in pairs
           do (archive-check-spellings value moving
                                       (lambda (text) (core-error "~a: ~a" name text)))
+             (archive-check-names-real name value)
              (archive-check-real name value)))
   (archive-check-derivatives given kind)
   (archive-check-occurrence given)
