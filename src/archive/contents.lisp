@@ -148,6 +148,16 @@
                       (core-warn "not in ~a: ~{~a~^, ~}" function
                                  (mapcar #'archive-argument-shown absent))))))))
 
+;; diff(x,t) without the quote is 0 before any function sees it
+
+(defun archive-check-velocities (given)
+  "A warning where L has no velocity at all."
+  (multiple-value-bind (L there) (gethash "Lagrangian" given)
+    (let ((x (car (last (gethash "coordinates" given)))))
+      (when (and there x (null (archive-differentiated-names L)))
+        (core-warn "no velocity in Lagrangian; it is written 'diff(~a,t), without the quote it is 0"
+                   (archive-argument-shown x))))))
+
 (defun archive-fault-constant (name value variables)
   (if (symbolp value)
       (core-error "~a is the name ~a, which has no value; give it one, or type the function" name
@@ -249,6 +259,7 @@ take; MOVING are the names that move in the archive of the call."
              (archive-check-real name value)))
   (archive-check-derivatives given kind)
   (archive-check-occurrence given)
+  (archive-check-velocities given)
   (archive-check-potential given)
   (archive-check-integrals given)
   (archive-check-options-used given))
