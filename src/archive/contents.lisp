@@ -114,7 +114,9 @@
                (archive-check-spellings
                 (archive-without-functions own value) moving
                 (lambda (text) (core-fault section key "~a: ~a" (archive-key-text key) text)))))
-      (check "system" (cdr description)))))
+      (check "system" (cdr description))
+      (archive-check-special-case ($core_get description '$where '((mlist))) moving
+                                  (lambda (text) (core-fault "system" '$where "where: ~a" text))))))
 
 (defun archive-without-functions (own value)
   "VALUE with the arguments alone of the functions OWN."
@@ -226,6 +228,19 @@ others."
               collect (cons name value))
         #'string< :key #'car))
 
+;; A special case is one of parameters: it is put in after the derivatives have been taken
+
+(defun archive-check-special-case (where moving fault)
+  "Calls FAULT with a text where the list WHERE says that a parameter is what moves."
+  (dolist (equation (cdr where))
+    (destructuring-bind (name value) (cdr equation)
+      (let ((x (and (not (member name moving :test #'equal))
+                    (find-if (lambda (x) (archive-occurs-p x value)) moving))))
+        (when x
+          (funcall fault (format nil "the value of ~a contains ~a, which moves; write it into the ~
+                                      equations" (archive-argument-shown name)
+                                 (archive-argument-shown x))))))))
+
 ;; Signs and zeros are those of real names
 
 (defun archive-complex-p (x)
@@ -255,6 +270,9 @@ take; MOVING are the names that move in the archive of the call."
     (loop for (name . value) in pairs
           do (archive-check-spellings value moving
                                       (lambda (text) (core-error "~a: ~a" name text)))
+             (when (string= name "where")
+               (archive-check-special-case value moving
+                                           (lambda (text) (core-error "~a: ~a" name text))))
              (archive-check-names-real name value)
              (archive-check-real name value)))
   (archive-check-derivatives given kind)
