@@ -16,7 +16,7 @@
    (lambda ()
      (let* ((description (archive-with-plain-simplifier (archive-checked groups)))
             (kind (core-spelling ($core_get description '$kind))))
-       (unless parts (archive-check-description-spellings description))
+       (archive-check-description-spellings description)
        (archive-check-agreement kind description)
        (archive-warn-free-symbols kind description)
        (make-archive :path path :text text :parts parts :groups groups :kind kind

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; What stands in arguments that have the right shape: spellings that cannot mean what they say,
 ;;; as x(t) for a coordinate, Cos[th], inf; names that do not occur in what they belong to, where
-;;; equations 0 = 0 would come. Description lists are looked at for the spellings too.
+;;; equations 0 = 0 would come. Descriptions are looked at for the spellings too.
 ;;; Look first at archive-check-arguments.
 
 (in-package :maxima)
@@ -38,7 +38,9 @@
                (setq names
                      (append (cond ((member name '("coordinates" "variables") :test #'string=)
                                     (cdr value))
-                                   ((member name '("motion" "solution") :test #'string=)
+                                   ((member name '("motion" "solution" "inductances"
+                                                   "capacitances")
+                                            :test #'string=)
                                     (archive-lefts value)))
                              (archive-differentiated-names value)
                              names)))
@@ -51,6 +53,7 @@
   "What to say of a PART that cannot mean what it says where the names MOVING move, or nil."
   (cond ((member part '($inf $minf $infinity $und $ind)) "is no number")
         ((atom part) nil)
+        ((archive-head-p part '%derivative) (archive-strange-derivative part moving))
         ((archive-meant-function part)
          (format nil "is no function of Maxima; ~a?" (archive-meant-text part)))
         ((member 'array (cdar part))
@@ -60,6 +63,33 @@
          (format nil "has no place here: write ~a for the coordinate and 'diff(~:*~a,t) for its ~
                       velocity"
                  (core-spelling (caar part))))))
+
+;; 'diff(q,t) is a velocity, that of a formula is none: what moves in it would be taken as constant
+
+(defun archive-explicit-time-p (e)
+  "Whether t occurs in E, velocities aside."
+  (cond ((atom e) (eq e '$t))
+        ((archive-time-derivative-p e) nil)
+        (t (some #'archive-explicit-time-p (cdr e)))))
+
+(defun archive-partial-in-time-p (e)
+  "Whether 'diff(E,t) is a partial derivative that is not carried out, as of f(x,t) and max(x,t)."
+  (and (archive-explicit-time-p e)
+       (not (member (caar e) '(mplus mtimes mexpt mnctimes)))
+       (not (get (caar e) 'grad))))
+
+(defun archive-strange-derivative (part moving)
+  (destructuring-bind (e x &optional order &rest others) (cdr part)
+    (let ((inside (remove-if-not (lambda (x) (archive-occurs-p x e))
+                                 (remove-duplicates moving :test #'equal))))
+      (cond ((member e moving :test #'equal)
+             (unless (and (eq x '$t) (integerp order) (plusp order) (null others))
+               (format nil "is no derivative of ~a by the time t" (archive-argument-shown e))))
+            ((and inside (member '$t (cddr part)) (not (archive-variable-p e))
+                  (not (archive-partial-in-time-p e)))
+             (format nil "is the derivative of a formula; write it in velocities, as ~
+                          TimeDerivative(~a, [~{~a~^, ~}]) does" (archive-argument-shown e)
+                     (mapcar #'archive-argument-shown inside)))))))
 
 (defun archive-check-spellings (value moving fault)
   "Calls FAULT with a text for the first strange part of VALUE."
@@ -71,7 +101,7 @@
    value))
 
 (defun archive-check-description-spellings (description)
-  "An error for the first strange spelling in a DESCRIPTION list; its own functions are its own."
+  "An error for the first strange spelling in a DESCRIPTION; its own functions are its own."
   (let ((own (append (cdr ($core_get description '$functions '((mlist))))
                      (mapcar #'caar (archive-lefts ($core_get description '$laws '((mlist)))))))
         (moving (mapcar #'car (archive-moving-names description))))
@@ -84,7 +114,9 @@
                (archive-check-spellings
                 (archive-without-functions own value) moving
                 (lambda (text) (core-fault section key "~a: ~a" (archive-key-text key) text)))))
-      (check "system" (cdr description)))))
+      (check "system" (cdr description))
+      (archive-check-special-case ($core_get description '$where '((mlist))) moving
+                                  (lambda (text) (core-fault "system" '$where "where: ~a" text))))))
 
 (defun archive-without-functions (own value)
   "VALUE with the arguments alone of the functions OWN."
@@ -117,6 +149,16 @@
                      (absent
                       (core-warn "not in ~a: ~{~a~^, ~}" function
                                  (mapcar #'archive-argument-shown absent))))))))
+
+;; diff(x,t) without the quote is 0 before any function sees it
+
+(defun archive-check-velocities (given)
+  "A warning where L has no velocity at all."
+  (multiple-value-bind (L there) (gethash "Lagrangian" given)
+    (let ((x (car (last (gethash "coordinates" given)))))
+      (when (and there x (null (archive-differentiated-names L)))
+        (core-warn "no velocity in Lagrangian; it is written 'diff(~a,t), without the quote it is 0"
+                   (archive-argument-shown x))))))
 
 (defun archive-fault-constant (name value variables)
   (if (symbolp value)
@@ -186,24 +228,56 @@ others."
               collect (cons name value))
         #'string< :key #'car))
 
+;; A special case is one of parameters: it is put in after the derivatives have been taken
+
+(defun archive-check-special-case (where moving fault)
+  "Calls FAULT with a text where the list WHERE says that a parameter is what moves."
+  (dolist (equation (cdr where))
+    (destructuring-bind (name value) (cdr equation)
+      (let ((x (and (not (member name moving :test #'equal))
+                    (find-if (lambda (x) (archive-occurs-p x value)) moving))))
+        (when x
+          (funcall fault (format nil "the value of ~a contains ~a, which moves; write it into the ~
+                                      equations" (archive-argument-shown name)
+                                 (archive-argument-shown x))))))))
+
+;; Signs and zeros are those of real names
+
+(defun archive-complex-p (x)
+  "Whether the session says that the name X is complex, and does not say that it is real."
+  (and (archive-symbol-p x) (kindp x '$complex) (not (kindp x '$real))))
+
+(defun archive-check-names-real (name value)
+  (archive-map-parts
+   (lambda (part)
+     (when (archive-complex-p part)
+       (core-error "~a: ~a is declared complex or imaginary; real names are wanted" name
+                   (archive-argument-shown part))))
+   value))
+
 (defun archive-check-real (name value)
   (when (and (member name *archive-real-arguments* :test #'string=)
              (archive-occurs-p '$%i value))
     (core-error "~a: found %i in ~a; real expressions are wanted" name
                 (archive-argument-shown value))))
 
-(defun archive-check-arguments (given kind)
+(defun archive-check-arguments (given kind &optional moving)
   "An error for the first of the arguments and options GIVEN, a table, that a call of KIND cannot
-take."
-  (let ((pairs (archive-given-pairs given)) (moving nil))
+take; MOVING are the names that move in the archive of the call."
+  (let ((pairs (archive-given-pairs given)))
     (loop for (name . value) in pairs do (archive-check-argument name value kind))
-    (setq moving (archive-moving-arguments given))
+    (setq moving (append moving (archive-moving-arguments given)))
     (loop for (name . value) in pairs
           do (archive-check-spellings value moving
                                       (lambda (text) (core-error "~a: ~a" name text)))
+             (when (string= name "where")
+               (archive-check-special-case value moving
+                                           (lambda (text) (core-error "~a: ~a" name text))))
+             (archive-check-names-real name value)
              (archive-check-real name value)))
   (archive-check-derivatives given kind)
   (archive-check-occurrence given)
+  (archive-check-velocities given)
   (archive-check-potential given)
   (archive-check-integrals given)
   (archive-check-options-used given))

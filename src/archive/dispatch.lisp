@@ -113,7 +113,8 @@ none."
   (let ((call (archive-new-call public archive (archive-kind archive))))
     (archive-give-trailing call trailing)
     (archive-give-options call options)
-    (archive-check-arguments (archive-call-given call) (archive-call-kind call))
+    (archive-check-arguments (archive-call-given call) (archive-call-kind call)
+                             (mapcar #'car (archive-moving-names (archive-description archive))))
     (setq *core-place* (lambda (section key) (archive-place archive section key)))
     call))
 
