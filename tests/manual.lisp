@@ -65,8 +65,10 @@ lines before."
   (and (consp e) (member (caar e) '(mlist mequal mgreaterp mgeqp mlessp mleqp mnotequal $matrix))))
 
 (defun manual-same-p (a b)
-  "Whether A and B are the same expression up to the order in which terms and factors are written."
+  "Whether A and B are the same expression up to the order in which terms and factors are written, and
+to the places where the manual breaks a text into lines."
   (cond ((alike1 a b) t)
+        ((and (stringp a) (stringp b)) (string= (manual-squeezed a) (manual-squeezed b)))
         ((or (manual-compound-p a) (manual-compound-p b))
          (and (manual-compound-p a) (manual-compound-p b)
               (eq (caar a) (caar b)) (= (length a) (length b))
