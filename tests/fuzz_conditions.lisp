@@ -142,3 +142,7 @@ negative real parts: Routh's reduction of the degree by one."
 (defun $fuzz_conditions (count seed)
   "The failures among COUNT random cases from SEED."
   (signs-failures count seed #'conditions-case))
+
+(defun $fuzz_conditions_in_tests ()
+  "As many as a test has time for: GCL interprets what SBCL compiles."
+  #+sbcl 250 #-sbcl 15)

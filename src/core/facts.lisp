@@ -64,13 +64,14 @@
 ;;; What the session assumes
 
 (defun core-visible-contexts ()
-  "The current context, the active ones, and those that they include."
+  "The current context, the active ones, and those that they include. (Maxima 5.47 has what is no
+context in its list of active ones.)"
   (let ((seen '()))
     (labels ((visit (place)
                (unless (member place seen)
                  (push place seen)
                  (mapc #'visit (zl-get place 'subc)))))
-      (mapc #'visit (cons $context (cdr $activecontexts))))
+      (mapc #'visit (cons $context (remove-if-not #'symbolp (cdr $activecontexts)))))
     (nreverse seen)))
 
 (defun core-users-name-p (e)
