@@ -130,8 +130,7 @@
   *analysis-laws* *analysis-unknowns*)
 (core-rule "Stability" *analysis-motions* "analysis/energy" "analysis_stability_lagrangian"
   "Lagrangian" "coordinates" "LagrangeEquations" "solution" *analysis-where* *analysis-laws*
-  '("rayleigh" 0) (list "forces" *analysis-none*) (list "constraints" *analysis-none*)
-  (list "nonholonomic" *analysis-none*))
+  "actions")
 
 ;;; The method of Routh and Lyapunov
 

@@ -265,9 +265,16 @@ first: those that its section states, else the archive's."
 where there is only one."
   (let ((form (archive-value call "form" '$auto)))
     (cond ((equal (rule-given rule) *archive-program-form*) "program")
-          ((notany (lambda (input) (equal (archive-input-name input) "form")) (rule-inputs rule))
-           nil)
+          ((notany (lambda (input) (archive-takes-form-p call input)) (rule-inputs rule)) nil)
           (t (core-spelling (if (eq form '$auto) *core-level* form))))))
+
+(defun archive-takes-form-p (call input)
+  "Whether INPUT is the form asked for, or a record of options that has it."
+  (let* ((name (archive-input-name input))
+         (rule (and (not (gethash name *core-publics*)) (archive-rule call name))))
+    (or (equal name "form")
+        (and rule (some (lambda (input) (equal (archive-input-name input) "form"))
+                        (rule-inputs rule))))))
 
 (defun archive-note-step (call name value level)
   (when (and (archive-call-archive call) (archive-path (archive-call-archive call)))

@@ -8,6 +8,15 @@
 
 (core-fact-judge "algebra/facts" 'algebra-name-signs)
 
+;;; What acts beside L, and how equations are wanted
+
+(core-rule "actions" :any "forms/actions" "forms_actions" '("rayleigh" 0) '("forces" ((mlist simp)))
+  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))))
+(core-rule "canonical_actions" :any "forms/actions" "forms_canonical_actions"
+  '("forces" ((mlist simp))) '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))))
+(core-rule "equation_options" :any "forms/actions" "forms_options" '("simplify" nil)
+  '("expanded" nil) '("eliminate" nil) '("form" $auto))
+
 ;;; Expressions with velocities
 
 (core-public "TimeDerivative" :forms '(("expressions" "expression" "coordinates")))
@@ -25,18 +34,14 @@
   :options '("rayleigh" "forces" "constraints" "nonholonomic" "simplify" "expanded" "eliminate")
   :kinds *forms-kinds*)
 (core-rule "LagrangeEquations" :any "forms/lagrange" "forms_lagrange_equations"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp)))
-  '("constraints" ((mlist simp)))
-  '("nonholonomic" ((mlist simp))) '("simplify" nil) '("expanded" nil) '("eliminate" nil)
-  '("form" $auto))
+  "Lagrangian" "coordinates" "actions" "equation_options")
 
 (core-public "MassForm"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("rayleigh" "forces")
   :kinds *forms-kinds*)
-(core-rule "MassForm" :any "forms/mass" "forms_free_mass_form"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp)))
-  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("form" $auto))
+(core-rule "MassForm" :any "forms/mass" "forms_mass_form"
+  "Lagrangian" "coordinates" "actions" '("form" $auto))
 
 (core-public "Quadratics"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
@@ -47,8 +52,7 @@
 ;;; Routh
 
 (defparameter *forms-routh-inputs*
-  '("Lagrangian" "coordinates" ("cyclic" $auto) ("momenta" ((mlist simp))) ("rayleigh" 0)
-    ("forces" ((mlist simp))) ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))))
+  '("Lagrangian" "coordinates" ("cyclic" $auto) ("momenta" ((mlist simp))) "actions"))
 
 (core-public "RouthFunction"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
@@ -62,7 +66,7 @@
   :options '("cyclic" "momenta" "rayleigh" "forces" "constraints" "nonholonomic" "simplify")
   :kinds *forms-kinds*)
 (apply #'core-rule "RouthEquations" :any "forms/routh" "forms_routh_equations"
-       (append *forms-routh-inputs* '(("simplify" nil) ("form" $auto))))
+       (append *forms-routh-inputs* '("equation_options")))
 
 (apply #'core-rule "remaining_coordinates" :any "forms/routh" "forms_remaining_coordinates"
   *forms-routh-inputs*)
@@ -84,18 +88,14 @@
   :options '("momenta" "rayleigh" "forces" "constraints" "nonholonomic")
   :kinds *forms-kinds*)
 (core-rule "HamiltonEquations" :any "forms/hamilton" "forms_hamilton_equations"
-  "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("rayleigh" 0) '("forces" ((mlist simp)))
-  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("form" $auto))
+  "Lagrangian" "coordinates" '("momenta" ((mlist simp))) "actions" '("form" $auto))
 (core-rule-given "hamiltonian" "HamiltonEquations" '("lagrangian") "forms/hamilton"
   "forms_hamilton_equations_of"
-  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) '("forces" ((mlist simp)))
-  '("constraints" ((mlist simp))) '("nonholonomic" ((mlist simp))) '("form" $auto))
+  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) "canonical_actions" '("form" $auto))
 
 ;;; Dirac
 
-(defparameter *forms-dirac-inputs*
-  '(("momenta" ((mlist simp))) ("rayleigh" 0) ("forces" ((mlist simp)))
-    ("constraints" ((mlist simp))) ("nonholonomic" ((mlist simp)))))
+(defparameter *forms-dirac-inputs* '(("momenta" ((mlist simp))) "actions"))
 
 (core-public "DiracScheme"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
@@ -119,9 +119,7 @@
   :options '("rayleigh" "forces" "constraints" "nonholonomic")
   :kinds *forms-kinds*)
 (core-rule "FirstIntegrals" :any "forms/integrals" "forms_first_integrals"
-  "Lagrangian" "coordinates" '("rayleigh" 0) '("forces" ((mlist simp)))
-  '("constraints" ((mlist simp)))
-  '("nonholonomic" ((mlist simp))) '("axis_momenta" ((mlist simp))) '("form" $auto))
+  "Lagrangian" "coordinates" "actions" '("axis_momenta" ((mlist simp))) '("form" $auto))
 
 ;;; Programs
 
@@ -129,21 +127,17 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("rayleigh" "forces" "solved" "inverse")
   :kinds *forms-kinds*)
-(defparameter *forms-program-inputs*
-  '(("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
-    ("nonholonomic" ((mlist simp))) ("laws" ((mlist simp)))))
-
 (dolist (option '(nil ("form" $program)))
   (apply #'core-rule-given option "EquationProgram" :any "forms/equation_program"
          "forms_equation_program" "Lagrangian" "coordinates"
-         (append *forms-program-inputs* '(("solved" nil) ("inverse" nil)))))
+         '("actions" ("laws" ((mlist simp))) ("solved" nil) ("inverse" nil))))
 (apply #'core-rule-given '("form" $program) "MassForm" :any "forms/equation_program"
   "forms_mass_program"
-       "Lagrangian" "coordinates" *forms-program-inputs*)
+       "Lagrangian" "coordinates" '("actions" ("laws" ((mlist simp)))))
 (apply #'core-rule-given '("form" $program) "LagrangeEquations" :any "forms/equation_program"
   "forms_lagrange_program"
        "Lagrangian" "coordinates"
-       (append *forms-program-inputs* '(("simplify" nil) ("expanded" nil) ("eliminate" nil))))
+       '("actions" ("laws" ((mlist simp))) "equation_options"))
 
 (core-public "ExportProgram"
   :forms '(("expressions" "program" "file"))

@@ -26,9 +26,7 @@
 (core-rule-given '("form" $program) "Lagrangian" '("mechanical")
   "linmodel/energy_program" "linmodel_lagrangian_program" "description" '("laws" ((mlist simp))))
 
-(defparameter *linmodel-program-inputs*
-  '("description" ("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
-    ("nonholonomic" ((mlist simp))) ("laws" ((mlist simp)))))
+(defparameter *linmodel-program-inputs* '("description" "actions" ("laws" ((mlist simp)))))
 
 (dolist (option '(nil ("form" $program)))
   (apply #'core-rule-given option "EquationProgram" '("mechanical") "linmodel/equation_program"
@@ -41,19 +39,14 @@
        "linmodel/equation_program" "linmodel_mass_program" *linmodel-program-inputs*)
 (apply #'core-rule-given '("form" $program) "LagrangeEquations" '("mechanical")
        "linmodel/equation_program" "linmodel_lagrange_program"
-       (append *linmodel-program-inputs* '(("simplify" nil) ("expanded" nil) ("eliminate" nil))))
+       (append *linmodel-program-inputs* '("equation_options")))
 
 ;;; Equations by projection; a file has Lagrange's function as a step, which may be edited
 
-(defparameter *linmodel-mass-inputs*
-  '("description" ("rayleigh" 0) ("forces" ((mlist simp))) ("constraints" ((mlist simp)))
-    ("nonholonomic" ((mlist simp)))))
-
-(loop for (target function others) in '(("MassForm" "linmodel_mass_form" (("form" $auto)))
-                                        ("LagrangeEquations" "linmodel_lagrange_equations"
-                                         (("simplify" nil) ("expanded" nil) ("eliminate" nil)
-                                          ("form" $auto))))
-      for inputs = (append *linmodel-mass-inputs* others)
+(loop for (target function options) in '(("MassForm" "linmodel_mass_form" ("form" $auto))
+                                         ("LagrangeEquations" "linmodel_lagrange_equations"
+                                          "equation_options"))
+      for inputs = (list "description" "actions" options)
       do (apply #'core-rule target '("mechanical") "linmodel/mass_form" function inputs)
          (apply #'core-rule-given :file target '("mechanical") "linmodel/mass_form"
                 (concatenate 'string function "_with") "Lagrangian" inputs))
