@@ -13,6 +13,7 @@
   (overruled '())                           ; (key . value): keys of [system] given in the call
   (given (make-hash-table :test #'equal))   ; name -> value: arguments and options
   (values (make-hash-table :test #'equal))  ; name -> value computed or read in this call
+  (derived (make-hash-table :test #'equal)) ; name -> archive-derived of what is no public step
   (needs (make-hash-table :test #'equal))   ; name -> archive-need
   (new '())                                 ; steps computed, newest first
   (facts '()))

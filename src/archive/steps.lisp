@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/results"))
+  (core-require "archive/call" "archive/derived" "archive/results"))
 
 (defstruct archive-need
   keys     ; keys of [system] the quantity depends on; "*" is the whole structure
@@ -222,16 +222,30 @@ as the size of what is neglected, and count in no digest: a formula must not dep
           (rule-inputs rule)))
 
 (defun archive-compute (call name rule)
-  "Applies the rule's pure function to its inputs; a public step is noted for saving."
-  (let* ((inputs (archive-inputs call rule))
-         (*core-checks* '()) (*core-left-out* '()) (*core-level* '$canonical)
-         (began (get-internal-real-time)))
+  "Applies the rule's pure function to its inputs; a public step is noted for saving, what was said
+of another is kept for those that take it."
+  (let* ((began (get-internal-real-time))
+         (derived (if (and (rule-kept rule) (archive-call-archive call))
+                      (archive-kept (archive-kept-key name (archive-digest-of call name)
+                                                      (archive-options-of call name))
+                                    (lambda () (archive-derive-now call name rule)))
+                      (archive-derive-now call name rule))))
+    (cond ((gethash name *core-publics*)
+           (archive-note-step call name derived (archive-form-taken call rule derived))
+           (archive-report-time call name began derived))
+          (t (setf (gethash name (archive-call-derived call)) derived)))
+    (archive-derived-value derived)))
+
+(defun archive-derive-now (call name rule)
+  (let ((inputs (archive-inputs call rule)))
     (core-progress "computing ~a" name)
-    (let ((value (core-apply-rule rule inputs)))
-      (when (gethash name *core-publics*)
-        (archive-note-step call name value (archive-form-taken call rule)))
-      (archive-report-time call name began)
-      value)))
+    (archive-derive rule inputs (archive-said call rule))))
+
+(defun archive-said (call rule)
+  "What was said when the inputs of RULE that are no public steps were derived."
+  (loop for input in (rule-inputs rule)
+        for derived = (gethash (archive-input-name input) (archive-call-derived call))
+        when derived collect derived))
 
 ;;; Abbreviations are names for the person: results are saved and returned in them, and computed
 ;;; without them
@@ -254,19 +268,19 @@ first: those that its section states, else the archive's."
     (dolist (equation (reverse abbreviations) value)
       (setq value ($substitute (caddr equation) (cadr equation) value)))))
 
-(defun archive-report-time (call name began)
+(defun archive-report-time (call name began derived)
   (when (eq (archive-option call "verbose" nil) t)
     (core-note "~a took ~,3f s~@[; ~{~a~^; ~}~]" name
                (/ (- (get-internal-real-time) began) (float internal-time-units-per-second 1d0))
-               *core-left-out*)))
+               (archive-derived-left-out derived))))
 
-(defun archive-form-taken (call rule)
+(defun archive-form-taken (call rule derived)
   "The form of what RULE gave, as text: the one asked for, or that to which the derivation came; nil
 where there is only one."
   (let ((form (archive-value call "form" '$auto)))
     (cond ((equal (rule-given rule) *archive-program-form*) "program")
           ((notany (lambda (input) (archive-takes-form-p call input)) (rule-inputs rule)) nil)
-          (t (core-spelling (if (eq form '$auto) *core-level* form))))))
+          (t (core-spelling (if (eq form '$auto) (archive-derived-level derived) form))))))
 
 (defun archive-takes-form-p (call input)
   "Whether INPUT is the form asked for, or a record of options that has it."
@@ -276,13 +290,14 @@ where there is only one."
         (and rule (some (lambda (input) (equal (archive-input-name input) "form"))
                         (rule-inputs rule))))))
 
-(defun archive-note-step (call name value level)
+(defun archive-note-step (call name derived form)
   (when (and (archive-call-archive call) (archive-path (archive-call-archive call)))
-    (let ((short (archive-abbreviated call value)))
+    (let* ((value (archive-derived-value derived)) (short (archive-abbreviated call value)))
       (push (make-archive-step
              :name name :value short :from (archive-digest-of call name)
-             :options (archive-options-of call name) :form level
-             :checks (reverse *core-checks*) :left-out (reverse *core-left-out*)
+             :options (archive-options-of call name) :form form
+             :checks (reverse (archive-derived-checks derived))
+             :left-out (reverse (archive-derived-left-out derived))
              :abbreviations (unless (equal short value) (archive-abbreviations call)))
             (archive-call-new call)))))
 

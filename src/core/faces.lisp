@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; A face is a package as the user loads it: a version and a list of public functions. Each public
+;;; A face is a package as the user loads it: a list of public functions. Each public
 ;;; function becomes a Lisp function that hands its arguments to the dispatcher, so kill(all)
 ;;; leaves it and a call is what loads the parts it needs.
 
@@ -11,7 +11,8 @@
 (defvar *core-dispatcher* nil
   "What answers a call: a function of a public name and the arguments. The dispatcher's part sets
 it.")
-(defvar *core-faces* '() "Faces loaded: (name . version).")
+(defparameter *core-version* "0.2.0" "The version of the three packages.")
+(defvar *core-faces* '() "Names of the faces loaded.")
 
 (defun core-load-registers ()
   (loop for (room) in *core-rooms* do
@@ -28,11 +29,11 @@ capture it.)"
             (funcall *core-dispatcher* public arguments)))
     symbol))
 
-(defun $core_face (face version &rest names)
-  "States a package: its name, its version, and the names of its public functions."
+(defun $core_face (face &rest names)
+  "States a package: its name and the names of its public functions."
   (core-load-registers)
   (unless *core-faces* (core-say-lost-functions))
   (dolist (name names) (core-install name))
   (core-help-install)
-  (setq *core-faces* (acons face version (remove face *core-faces* :key #'car :test #'string=)))
+  (pushnew face *core-faces* :test #'string=)
   '$done)

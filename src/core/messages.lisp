@@ -15,6 +15,7 @@
 (defvar *core-progress* t "Whether progress lines are wanted.")
 (defvar *core-doing* nil "What is being done, such as \"computing Lagrangian\".")
 (defvar *core-warnings* nil "Warnings already given in this call.")
+(defvar *core-warnings-now* '() "Warnings of what is being derived, given already or not.")
 
 (defun core-words (items)
   "ITEMS, strings and Maxima expressions, as one string on one line."
@@ -58,6 +59,7 @@
 (defun core-warn (control &rest arguments)
   "One line, once in a call."
   (let ((text (apply #'format nil control arguments)))
+    (pushnew text *core-warnings-now* :test #'string=)
     (unless (member text *core-warnings* :test #'string=)
       (push text *core-warnings*)
       (core-note "warning: ~a" text))))

@@ -18,7 +18,8 @@
   numerical) ; t where `values', `start' and `time' count
 
 (defstruct (core-rule (:conc-name rule-))
-  kinds given part function inputs same record field)
+  kinds given part function inputs same record field
+  kept)  ; t for a middle quantity: what it gives is kept for the calls that follow
 
 (defun core-public (name &key forms trailing options kinds numerical)
   "States a public function. FORMS of calls on expressions; TRAILING arguments after a system."
@@ -38,6 +39,11 @@
 or :any."
   (core-add-rule name (make-core-rule :kinds kinds :part part :function (core-symbol function)
                                       :inputs inputs)))
+
+(defun core-middle (name kinds part function &rest inputs)
+  "The same for a middle quantity, which much is computed from and which is dear: it is kept."
+  (apply #'core-rule name kinds part function inputs)
+  (setf (rule-kept (core-find-rule name (if (consp kinds) (car kinds) kinds) (constantly nil))) t))
 
 (defun core-rule-given (option name kinds part function &rest inputs)
   "The same where OPTION is given, in the call or as a key of the archive; where it is (option

@@ -1,0 +1,54 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What a rule gave, with what was said meanwhile: checks, what is left out, warnings, the form to
+;;; which the derivation came. Whoever takes a middle quantity repeats them. Those that the register
+;;; marks as kept (scene, network, actions) stay for the calls that follow, the last few of them,
+;;; under a digest of what they depend on, the facts that hold and the version. Look first at
+;;; archive-derive.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/digest" "archive/speller"))
+
+(defstruct archive-derived
+  value
+  (checks '()) (left-out '()) (warnings '())   ; newest first
+  (level '$canonical))
+
+(defparameter *archive-kept-most* 8)
+
+(defvar *archive-kept* '() "(key . archive-derived) of quantities that are kept, newest first.")
+
+(defun archive-derive (rule inputs said)
+  "The archive-derived of RULE's pure function applied to INPUTS, of which SAID, a list of
+archive-derived, was said before."
+  (let ((*core-checks* '()) (*core-left-out* '()) (*core-level* '$canonical)
+        (*core-warnings-now* '()))
+    (mapc #'archive-say-again said)
+    (let ((value (core-apply-rule rule inputs)))
+      (make-archive-derived :value value :checks *core-checks* :left-out *core-left-out*
+                            :warnings *core-warnings-now* :level *core-level*))))
+
+(defun archive-say-again (derived)
+  "Repeats what was said when a part was DERIVED; a warning once in a call."
+  (dolist (text (reverse (archive-derived-checks derived)))
+    (pushnew text *core-checks* :test #'string=))
+  (dolist (text (reverse (archive-derived-left-out derived)))
+    (pushnew text *core-left-out* :test #'string=))
+  (dolist (text (reverse (archive-derived-warnings derived))) (core-warn "~a" text))
+  (unless (eq (archive-derived-level derived) '$canonical) (core-factored)))
+
+(defun archive-kept-key (name digest options)
+  "The key of the quantity NAME that depends on what has DIGEST and OPTIONS."
+  (format nil "~a ~a [~a] ~a ~a" *core-version* name options digest
+          (archive-digest (format nil "~{~a~%~}" (mapcar #'archive-spell (core-facts))))))
+
+(defun archive-kept (key make)
+  "The archive-derived kept under KEY, else that which the function MAKE gives, kept from now on."
+  (let ((found (assoc key *archive-kept* :test #'string=)))
+    (unless found (setq found (cons key (funcall make))))
+    (setq *archive-kept*
+          (cons found (remove found *archive-kept*)))
+    (when (nthcdr *archive-kept-most* *archive-kept*)
+      (setq *archive-kept* (butlast *archive-kept*)))
+    (cdr found)))
