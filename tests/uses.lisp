@@ -1,0 +1,191 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Which part uses which: names that a file under src defines and another one has. What a part uses
+;;; it declares (core_require anywhere in its text; the core is always there), and its room may use
+;;; the other's by the table of rooms. Names are compared as Maxima spells them: $name of Lisp is
+;;; name of Maxima, name of Lisp is ?name. Look first at $uses_undeclared.
+
+(in-package :maxima)
+
+(defun uses-parts ()
+  "The names of all parts, \"room/file\", registers last."
+  (loop for (room) in *core-rooms*
+        append (loop for type in '("lisp" "mac")
+                     append (loop for file in (directory (format nil "~asrc/~a/*.~a" *core-root* room type))
+                                  collect (format nil "~a/~a" room (pathname-name file))))))
+
+(defun uses-file (part)
+  (flet ((file (type) (core-existing-file (format nil "~asrc/~a.~a" *core-root* part type))))
+    (or (file "lisp") (file "mac"))))
+
+(defun uses-text (file)
+  (with-open-file (in (core-pathname file))
+    (let* ((text (make-string (file-length in))) (end (read-sequence text in)))
+      (subseq text 0 end))))
+
+;;; Lisp: read, not evaluated
+
+(defun uses-forms (file)
+  (with-open-file (in (core-pathname file))
+    (let ((*package* (find-package :maxima)))
+      (loop for form = (read in nil in) until (eq form in) collect form))))
+
+(defun uses-map (function form)
+  "Calls FUNCTION on all atoms of FORM."
+  (loop while (consp form) do (uses-map function (pop form)))
+  (cond ((null form))
+        #+sbcl ((sb-impl::comma-p form) (uses-map function (sb-impl::comma-expr form)))
+        ((and (vectorp form) (not (stringp form))) (map nil (lambda (e) (uses-map function e)) form))
+        (t (funcall function form))))
+
+(defun uses-symbol-name (symbol)
+  "As Maxima code spells it."
+  (let ((name (symbol-name symbol)))
+    (if (and (plusp (length name)) (char= (char name 0) #\$))
+        (string-downcase (subseq name 1))
+        (concatenate 'string "?" (string-downcase name)))))
+
+(defun uses-lisp-definitions (forms)
+  (loop for form in forms
+        append (when (consp form)
+                 (case (car form)
+                   ((defvar defparameter defconstant deftype)
+                    (list (uses-symbol-name (second form))))
+                   (core-record (uses-record-names form))
+                   ((eval-when progn let flet labels macrolet) (uses-lisp-definitions (cddr form)))
+                   (t (mapcar #'uses-symbol-name (definitions-of form)))))))
+
+(defun uses-record-names (form)
+  (destructuring-bind (name documentation &rest fields) (cdr form)
+    (declare (ignore documentation))
+    (let ((fields (mapcar (lambda (field) (if (consp field) (car field) field)) fields))
+          (plain (substitute #\_ #\- (string-downcase name))))
+      (append (mapcar #'uses-symbol-name (definitions-of `(defstruct ,name ,@fields)))
+              (list plain (format nil "~a_with" plain))
+              (loop for field in fields
+                    collect (format nil "~a_~a" plain (substitute #\_ #\- (string-downcase field))))))))
+
+(defun uses-lisp-names (forms)
+  (let ((names '()))
+    (dolist (form forms names)
+      (uses-map (lambda (atom)
+                  (when (and (symbolp atom) (eq (symbol-package atom) (find-package :maxima)))
+                    (push (uses-symbol-name atom) names)))
+                form))))
+
+(defun uses-lisp-declared (forms)
+  (let ((parts '()))
+    (labels ((walk (form)
+               (when (consp form)
+                 (when (and (eq (car form) 'core-require) (listp (cdr form)))
+                   (setq parts (append (remove-if-not #'stringp (cdr form)) parts)))
+                 (loop while (consp form) do (walk (pop form))))))
+      (walk forms))
+    parts))
+
+;;; Maxima: words, comments and texts left out
+
+(defun uses-plain (text)
+  "TEXT of Maxima without comments, and what stands between quotes by itself."
+  (let ((i 0) (n (length text)) (quoted '()))
+    (values
+     (with-output-to-string (out)
+       (flet ((comment ()
+                (loop with depth = 0
+                      do (cond ((>= i n) (return))
+                               ((eql i (search "/*" text :start2 i :end2 (min n (+ i 2))))
+                                (incf depth) (incf i 2))
+                               ((eql i (search "*/" text :start2 i :end2 (min n (+ i 2))))
+                                (decf depth) (incf i 2)
+                                (when (zerop depth) (return)))
+                               (t (when (char= (char text i) #\Newline) (terpri out)) (incf i))))))
+         (loop while (< i n)
+               do (cond ((eql i (search "/*" text :start2 i :end2 (min n (+ i 2)))) (comment))
+                        ((char= (char text i) #\")
+                         (let ((end (loop for j from (1+ i)
+                                          do (case (char text j) (#\\ (incf j)) (#\" (return j))))))
+                           (push (subseq text (1+ i) end) quoted)
+                           (write-string "\"\"" out)
+                           (setq i (1+ end))))
+                        (t (write-char (char text i) out) (incf i))))))
+     quoted)))
+
+(defun uses-words (plain)
+  (let ((words '()) (i 0) (n (length plain)))
+    (flet ((letter-p (c) (or (alphanumericp c) (find c "_%?\\"))))
+      (loop while (< i n)
+            do (if (letter-p (char plain i))
+                   (let ((end (or (position-if-not (lambda (c) (or (letter-p c) (find c "-*")))
+                                                   plain :start i)
+                                  n)))
+                     (unless (char= (char plain i) #\?)
+                       (setq end (or (position-if-not #'letter-p plain :start i) n)))
+                     (push (remove #\\ (subseq plain i end)) words)
+                     (setq i end))
+                   (incf i))))
+    words))
+
+(defun uses-lines (plain)
+  (let ((start 0))
+    (loop for end = (position #\Newline plain :start start)
+          collect (subseq plain start end)
+          while end do (setq start (1+ end)))))
+
+(defun uses-mac-definitions (plain)
+  "Names at the beginning of a line before ( [ or :, and a := some time after."
+  (loop for line in (uses-lines plain)
+        for end = (position-if-not (lambda (c) (or (alphanumericp c) (find c "_%"))) line)
+        when (and end (plusp end) (find (char line end) "([:") (alpha-char-p (char line 0))
+                  (find #\_ line :end end)
+                  (or (search ":=" line) (char= (char line end) #\:)
+                      (not (find #\$ line)))
+                  (not (search "core_require" line)))
+          collect (subseq line 0 end)))
+
+;;; Who uses what
+
+(defstruct uses-part name defined used declared)
+
+(defun uses-read (part)
+  (let ((file (uses-file part)))
+    (if (search ".lisp" file)
+        (let ((forms (uses-forms file)))
+          (make-uses-part :name part :defined (uses-lisp-definitions forms)
+                          :used (uses-lisp-names forms) :declared (uses-lisp-declared forms)))
+        (multiple-value-bind (plain quoted) (uses-plain (uses-text file))
+          (make-uses-part :name part :defined (uses-mac-definitions plain)
+                          :used (uses-words plain) :declared quoted)))))
+
+(defun uses-room (part) (subseq part 0 (position #\/ part)))
+
+(defun uses-arrows ()
+  "(user other (name ..)) for each part that uses names of another."
+  (let ((parts (mapcar #'uses-read (uses-parts))) (home (make-hash-table :test #'equal)) (arrows '()))
+    (dolist (part parts)
+      (dolist (name (uses-part-defined part)) (setf (gethash name home) (uses-part-name part))))
+    (dolist (part parts (nreverse arrows))
+      (let ((found (make-hash-table :test #'equal)))
+        (dolist (name (remove-duplicates (uses-part-used part) :test #'string=))
+          (let ((other (gethash name home)))
+            (when (and other (string/= other (uses-part-name part)))
+              (push name (gethash other found)))))
+        (loop for other being the hash-keys of found using (hash-value names)
+              do (push (list part other (sort names #'string<)) arrows))))))
+
+(defun uses-list (&rest items) (cons '(mlist simp) items))
+
+(defun $uses_undeclared ()
+  "[[part, other, names], ..]: a part uses another and does not declare it."
+  (apply #'uses-list
+         (loop for (part other names) in (uses-arrows)
+               unless (or (string= (uses-room other) "core")
+                          (string= (uses-room (uses-part-name part)) "core")
+                          (member other (uses-part-declared part) :test #'string=))
+                 collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
+
+(defun $uses_forbidden ()
+  "[[part, other, names], ..]: a part uses one of a room that its own room may not use."
+  (apply #'uses-list
+         (loop for (part other names) in (uses-arrows)
+               unless (member (uses-room other) (core-rooms-used (uses-room (uses-part-name part)))
+                              :test #'string=)
+                 collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
