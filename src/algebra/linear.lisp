@@ -100,7 +100,7 @@
       (case (algebra-zero-test e)
         ((nil) nil)
         ((t) t)
-        (t (core-error "it is not decided whether ~A vanishes" (algebra-short-text e))))))
+        (t (core-undecided "it is not decided whether ~A vanishes" (algebra-short-text e))))))
 
 (defun algebra-echelon (rows columns)
   "Reduced echelon form of ROWS, pivots in the first COLUMNS only."

@@ -88,7 +88,7 @@
         (cond ((eql sign 0) 0)
               ((and sign plain))
               (t (algebra-bound-of (or plain c))
-                 (core-error "it is not decided whether ~A is 0" (algebra-short-text c)))))))
+                 (core-undecided "it is not decided whether ~A is 0" (algebra-short-text c)))))))
 
 (defun algebra-first-decided (coefficients function)
   (let ((p (algebra-real-of coefficients)))
@@ -101,8 +101,8 @@
           finally (when *algebra-field-degree* (algebra-digits-missing coefficients)))))
 
 (defun algebra-digits-missing (coefficients)
-  (core-error "~A binary digits do not decide where the roots lie that are so close to each other ~
-               or to the axis; the coefficients are made of ~{~A~^, ~}"
-              *algebra-most-bits*
-              (mapcar #'algebra-short-text
-                      (remove-if #'algebra-rational-number coefficients))))
+  (core-undecided "~A binary digits do not decide where the roots lie that are so close to each ~
+                   other or to the axis; the coefficients are made of ~{~A~^, ~}"
+                  *algebra-most-bits*
+                  (mapcar #'algebra-short-text
+                          (remove-if #'algebra-rational-number coefficients))))

@@ -55,8 +55,8 @@
           (not-zero nil)
           (t (if (algebra-nonzero-somewhere-p (algebra-general (car minor)))
                  nil
-                 (core-error "it is not decided whether ~A vanishes"
-                             (algebra-short-text (algebra-general (car minor))))))))))
+                 (core-undecided "it is not decided whether ~A vanishes"
+                                 (algebra-short-text (algebra-general (car minor))))))))))
 
 ;;; A point modulo a prime.
 

@@ -28,12 +28,23 @@
   "TEXT, cut after sixty letters."
   (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text))
 
+(defun core-named (text)
+  "TEXT after the name of the function that runs."
+  (if *core-function* (concatenate 'string *core-function* ": " text) text))
+
 (defun core-signal (text)
-  (merror "~A" (if *core-function* (concatenate 'string *core-function* ": " text) text)))
+  (merror "~A" (core-named text)))
 
 (defun core-error (control &rest arguments)
   "A Maxima error: \"FUNCTION: text\"."
   (core-signal (apply #'format nil control arguments)))
+
+(defvar *core-undecided* nil "The text of the last error that says what is not decided.")
+
+(defun core-undecided (control &rest arguments)
+  "An error that says what is not decided; core_decided makes an answer of it."
+  (setq *core-undecided* (apply #'format nil control arguments))
+  (core-signal *core-undecided*))
 
 (defun core-placed (section key)
   "\"body 2 (pendulum.txt, line 14)\", as far as it is known."
@@ -65,6 +76,8 @@
       (core-note "warning: ~a" text))))
 
 (defun $core_error (&rest items) (core-signal (core-words items)))
+
+(defun $core_undecided (&rest items) (core-undecided "~a" (core-words items)))
 
 (defun core-section-name (section) (if (stringp section) section (core-words (list section))))
 
@@ -109,6 +122,24 @@ keeps its value."
 (defmspec $core_attempt (form)
   ;; core_attempt(e): [value of e], or [] when it ends in an error or would ask a question.
   (cons '(mlist simp) (core-attempt (lambda () (meval (cadr form))))))
+
+;;; What is not decided is an answer to some: a verdict names it.
+
+(defun core-undecided-text (last-error)
+  "The text of core-undecided in LAST-ERROR, the variable error; nil where it is another's."
+  (and *core-undecided*
+       (equal (cddr last-error) (list (core-named *core-undecided*)))
+       *core-undecided*))
+
+(defmspec $core_decided (form)
+  ;; core_decided(e): [value of e], or the text of what is not decided. Other errors are errors.
+  (let* ((last-error nil) (*core-undecided* nil)
+         (value (let (($errormsg nil) ($error $error))
+                  (or (errcatch (list '(mlist simp) (meval (cadr form))))
+                      (progn (setq last-error $error) nil)))))
+    (cond (value (car value))
+          ((core-undecided-text last-error))
+          (t (apply #'merror (cdr last-error))))))
 
 ;;; Texts, for Maxima code that would otherwise load a whole share package for them
 
