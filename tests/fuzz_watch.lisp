@@ -54,6 +54,10 @@
   "What is written to the terminal while the Maxima FUNCTION runs."
   (with-output-to-string (*standard-output*) (mfuncall function)))
 
+(defun fuzz-watch-person (seconds)
+  "A person who thinks for SECONDS."
+  (core-waiting (lambda () (sleep seconds))))
+
 (defun fuzz-watch-call (function &optional limit)
   "Calls FUNCTION on the file of this process; what it says goes nowhere."
   (let ((*standard-output* (make-broadcast-stream)))

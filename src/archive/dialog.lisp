@@ -66,7 +66,7 @@ the same text."
   (core-say (archive-filled (apply #'format nil control arguments))))
 
 (defun archive-read-line ()
-  (let ((line (read-line (archive-input-stream) nil nil)))
+  (let ((line (core-waiting (lambda () (read-line (archive-input-stream) nil nil)))))
     (if (and *archive-fresh-input* line (string= "" (string-trim '(#\Space #\Tab #\Return) line)))
         (progn (setq *archive-fresh-input* nil) (archive-read-line))
         (progn (setq *archive-fresh-input* nil) line))))

@@ -68,12 +68,12 @@
   (second (assoc type *archive-types*)))
 
 (defun archive-value-shown (value)
-  "VALUE as an archive would spell it, cut after sixty letters."
-  (core-cut (if (stringp value) (format nil "~s" value) (archive-spelled value))))
-
-(defun archive-spelled (value)
-  "VALUE as the archive's writer spells it; a form that it does not know as Maxima does."
-  (or (second (core-attempt (lambda () (archive-spell value)))) (core-words (list value))))
+  "VALUE as the archive's writer spells it, a form that it does not know as Maxima does; cut after
+sixty letters."
+  (core-cut (if (stringp value)
+                (format nil "~s" value)
+                (or (first (core-attempt (lambda () (archive-spell value))))
+                    (core-words (list value))))))
 
 ;; What expressions are
 

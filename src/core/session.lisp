@@ -163,8 +163,9 @@ removes, rules before their simplifier, the derivative of abs."
               (core-own-properties (core-born-properties symbol)))))
 
 (defun core-named-symbols (item)
-  "The symbols whose properties an entry ITEM of an information list stands for."
-  (cond ((stringp item) (list (core-token item) (getopr item)))
+  "The symbols whose properties an entry ITEM of an information list stands for. (wxMaxima puts
+strings that are no operators there.)"
+  (cond ((stringp item) (list (core-token item) (getopr0 item)))
         ((consp item) (core-named-symbols (if (consp (car item)) (caar item) (car item))))
         ((symbolp item)
          (remove nil (list item (get item 'reversealias) (ruleof item) (get item 'match))))))

@@ -57,6 +57,19 @@
 
 (setq *core-loading* #'core-unhurried)
 
+(defun core-next-line-after (now)
+  (setq *core-next-line* (+ now (* 2 internal-time-units-per-second))))
+
+(defun core-waiting (function)
+  "Calls FUNCTION, which waits for the person: his time is none of the call's, and the two seconds
+to the next line of progress begin anew."
+  (let ((began (get-internal-real-time)) (*core-busy* t))
+    (unwind-protect (core-unhurried function)
+      (when *core-deadlines*
+        (let ((now (get-internal-real-time)))
+          (incf *core-call-began* (- now began))
+          (core-next-line-after now))))))
+
 ;;; The sentence of a stop
 
 (defun core-what-is-cheaper ()
@@ -79,7 +92,7 @@
 
 (defun core-say-progress (now)
   "One line on the stream on which the call began, wherever output goes at the moment."
-  (setq *core-next-line* (+ now (* 2 internal-time-units-per-second)))
+  (core-next-line-after now)
   (let ((*standard-output* *core-terminal*))
     (core-say (format nil "~@[~a: ~]~@[~a, ~]~d s" *core-function* *core-doing*
                       (round (core-seconds-since *core-call-began*))))))
