@@ -13,6 +13,59 @@
               unless (ignore-errors (core-rule-ready-p rule))
                 collect (format nil "~a in ~a" (core-spelling (rule-function rule)) (rule-part rule)))))
 
+(defun $register_wrong_parts ()
+  "[function, part] of rules whose part does not define the function."
+  (let ((defined (make-hash-table :test #'equal)))
+    (flet ((names (part)
+             (or (gethash part defined)
+                 (setf (gethash part defined) (uses-part-defined (uses-read part))))))
+      (cons '(mlist simp)
+            (loop for rule in (register-rules)
+                  for name = (core-spelling (rule-function rule))
+                  unless (member name (names (rule-part rule)) :test #'string=)
+                    collect (list '(mlist simp) name (rule-part rule)))))))
+
+(defun register-parameters (function)
+  "Two values: the least and the most number of arguments of FUNCTION."
+  (let* ((mexpr (mget function 'mexpr))
+         (list (if mexpr
+                   (cdr (second mexpr))
+                   #+sbcl (sb-kernel:%fun-lambda-list (fdefinition function))))
+         (optional (position '&optional list)))
+    (if optional (values optional (1- (length list))) (values (length list) (length list)))))
+
+(defun $register_wrong_arity ()
+  "[function, number of inputs] of rules whose function takes another number of arguments."
+  (cons '(mlist simp)
+        (loop for rule in (register-rules)
+              for count = (length (rule-inputs rule))
+              unless (and (core-rule-ready-p rule)
+                          (multiple-value-bind (least most) (register-parameters (rule-function rule))
+                            (<= least count most)))
+                collect (list '(mlist simp) (rule-function rule) count))))
+
+(defun register-known-names ()
+  "Names of quantities, arguments, options and keys of [system]."
+  (append (loop for name being the hash-keys of *core-rules* collect name)
+          (loop for public being the hash-values of *core-publics*
+                append (core-public-options public)
+                append (core-public-trailing public)
+                append (loop for form in (core-public-forms public) append (cdr form)))
+          (loop for kind in *archive-kinds*
+                append (mapcar #'archive-key-name (archive-option-keys kind)))
+          '("description" "form" "coordinates")))
+
+(defun $register_unknown_inputs ()
+  "[quantity, input] of rules that take what nothing gives."
+  (let ((known (register-known-names)))
+    (cons '(mlist simp)
+          (loop for name being the hash-keys of *core-rules* using (hash-value rules)
+                append (loop for rule in rules
+                             append (loop for input in (archive-rule-sources rule)
+                                          for wanted = (archive-input-name input)
+                                          unless (member wanted known :test #'string=)
+                                            collect (list '(mlist simp) name wanted)))))))
+
 (defun $register_without_rule ()
   "Public functions that no rule serves."
   (cons '(mlist simp)
