@@ -55,7 +55,7 @@
        "cyclic_integrals" *analysis-reactions*)
 (core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds"
   "analysis_extended_function" "K" "variables" "extend")
-(core-rule "InvariantManifolds" '("function") "analysis/manifolds" "analysis_invariant_manifolds"
+(core-rule "InvariantManifolds" '("function") "analysis/stationary_sets" "analysis_invariant_manifolds"
   "K" "variables" *analysis-unknowns* (list "within" *analysis-none*))
 
 (core-public "Equilibria"
