@@ -18,9 +18,6 @@
 (defparameter *analysis-where* (list "where" *analysis-none*))
 (defparameter *analysis-laws* (list "laws" *analysis-none*))
 (defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
-(defparameter *analysis-reactions*
-  (loop for key in '("forces" "constraints" "nonholonomic") collect (list key *analysis-none*))
-  "Forces that Lagrange's function does not contain.")
 (defparameter *analysis-variables* (list "variables" *analysis-none*))
 
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
@@ -36,26 +33,27 @@
 (core-public "StationaryEquations" :forms '(("function" "K" "variables")) :kinds *analysis-motions*)
 (core-rule "StationaryEquations" '("function") "analysis/stationary"
   "analysis_stationary_equations" "K" "variables")
-(apply #'core-rule "StationaryEquations" *analysis-motions* "analysis/stationary"
-       "analysis_stationary_system" "RouthFunction" "remaining_coordinates" *analysis-reactions*)
+(core-rule "StationaryEquations" *analysis-motions* "analysis/stationary"
+  "analysis_stationary_system" "RouthFunction" "remaining_coordinates" "actions")
 
 (core-public "StationarySolutions"
   :forms '(("function" "K" "variables")) :options '("unknowns" "where") :kinds *analysis-motions*)
 (core-rule "StationarySolutions" '("function") "analysis/stationary" "analysis_stationary_solutions"
   "K" "variables" *analysis-unknowns* *analysis-where*)
-(apply #'core-rule "StationarySolutions" *analysis-motions* "analysis/stationary"
-       "analysis_system_motions" "RouthFunction" "remaining_coordinates"
-       (append *analysis-reactions* (list *analysis-unknowns* *analysis-where*)))
+(core-rule "StationarySolutions" *analysis-motions* "analysis/stationary"
+  "analysis_system_motions" "RouthFunction" "remaining_coordinates" "actions" *analysis-unknowns*
+  *analysis-where*)
 
 (core-public "InvariantManifolds"
   :forms '(("function" "K" "variables")) :options '("extend" "within" "unknowns" "cyclic")
   :kinds *analysis-motions*)
-(apply #'core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds"
-       "analysis_extended_motion" "RouthFunction" "remaining_coordinates" "extend"
-       "cyclic_integrals" *analysis-reactions*)
+(core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds"
+  "analysis_extended_motion" "RouthFunction" "remaining_coordinates" "extend" "cyclic_integrals"
+  "actions")
 (core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds"
   "analysis_extended_function" "K" "variables" "extend")
-(core-rule "InvariantManifolds" '("function") "analysis/stationary_sets" "analysis_invariant_manifolds"
+(core-rule "InvariantManifolds" '("function") "analysis/stationary_sets"
+  "analysis_invariant_manifolds"
   "K" "variables" *analysis-unknowns* (list "within" *analysis-none*))
 
 (core-public "Equilibria"
