@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # tools/demo and tools/test need no make; these are their short names, and what is not run each time.
 
-.PHONY: demo test bench bench-peers fuzz test-maxima doc
+.PHONY: demo test bench bench-peers fuzz test-maxima doc dist
 
 demo:
 	@tools/demo
@@ -28,3 +28,7 @@ test-maxima:
 # The manual that `? name` shows, from its texinfo source.
 doc:
 	@tools/doc
+
+# The release of the last commit, as dynarch-VERSION.tar.gz in this folder.
+dist:
+	@tools/dist
