@@ -13,6 +13,7 @@
   (core-require "algebra/normal" "algebra/groebner"))
 
 (defparameter *algebra-most-points* 48 "dimension of the quotient ring up to which it is formed")
+(defparameter *algebra-most-exponent* 200 "exponent up to which bases are sought")
 (defparameter *algebra-basis-work* 400000 "coefficients that a basis may cost: some seconds")
 
 (defun $algebra_triangular (polynomials names)
@@ -50,6 +51,7 @@ of NAMES; nil where it gives up."
                      (algebra-order-kernels)
                      (if (algebra-polynomial-kernels-p kernels)
                          (let ((terms (algebra-monomials-of-all skeletons kernels)))
+                           (algebra-require-exponents terms)
                            (funcall function terms (algebra-number-terms-p terms) kernels))))))
       (if (eq answer 'too-large) nil answer))))
 
@@ -64,6 +66,12 @@ of NAMES; nil where it gives up."
                                    names))))
                 (algebra-ring-kernels *algebra-ring*)))
        (null (algebra-ring-units *algebra-ring*))))
+
+(defun algebra-require-exponents (polynomials)
+  (dolist (p polynomials)
+    (loop for (exponents . nil) in p
+          when (some (lambda (n) (> n *algebra-most-exponent*)) exponents)
+            do (throw 'algebra-too-large 'too-large))))
 
 (defun algebra-monomials-of-all (skeletons kernels)
   (loop for skeleton in skeletons

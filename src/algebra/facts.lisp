@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/plain_sign" "algebra/certificate"))
+  (core-require "algebra/normal" "algebra/plain_sign" "algebra/certificate"
+                "algebra/in_factors"))
 
 (defparameter *algebra-kept-knowledge* 16 "For how many lists of facts knowledge is kept.")
 (defvar *algebra-knowledges* '() "Knowledge of lists of facts used lately, newest first.")
@@ -117,7 +118,7 @@
 
 (defun algebra-factor-powers (e)
   "((factor . power) ..) of E; what is too long to be factored in seconds is one factor."
-  (let ((product (or (and (< (algebra-size e) 1000) (algebra-quietly (lambda () ($factor e)))) e)))
+  (let ((product (algebra-in-factors e 1000)))
     (loop for factor in (if (mtimesp product) (cdr product) (list product))
           collect (if (and (mexptp factor) (integerp (caddr factor)))
                       (cons (cadr factor) (caddr factor))

@@ -23,6 +23,13 @@
                          (declare (ignore degree))
                          (if (algebra-simple-p (algebra-axis-divisor p)) '$yes '$no))))
 
+(defun $algebra_distinct_real_roots (coefficients)
+  "How many real numbers are roots of the polynomial, of degree 1 at least; false as above."
+  (algebra-with-digits (cdr coefficients)
+                       (lambda (p degree)
+                         (algebra-sequence-index
+                          (algebra-subresultants p (algebra-real-derivative p degree))))))
+
 (defun algebra-located (p n)
   (let* ((index (algebra-sequence-index (algebra-subresultants (algebra-part p 0)
                                                                (algebra-part p 1))))

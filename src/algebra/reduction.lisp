@@ -73,9 +73,21 @@
         (loop for (exponent coefficient) on (cdr p) by #'cddr
               do (setq sum
                        (pplus sum
-                              (ptimes (ptimes coefficient (pexpt square (floor exponent 2)))
+                              (ptimes (ptimes coefficient
+                                              (algebra-binomial-power square (floor exponent 2)))
                                       (if (oddp exponent) (list variable 1 1) 1)))))
         sum)))
+
+(defun algebra-binomial-power (square n)
+  "(a*x^2 + b)^N for SQUARE, (x 2 a 0 b) with a, b = 1 or -1."
+  (algebra-guard (* n n) "a power of a sine or cosine, put in for the other,")
+  (if (zerop n)
+      1
+      (destructuring-bind (x a b) (list (first square) (third square) (fifth square))
+        (cons x (loop for k from n downto 0
+                      for choices = 1 then (/ (* choices (1+ k)) (- n k))
+                      collect (* 2 k)
+                      collect (* choices (expt a k) (expt b (- n k))))))))
 
 (defun algebra-reduce-root (quotient kernel)
   "Lower the powers of a root in the numerator of QUOTIENT."

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/nouns" "algebra/numbers"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/nouns" "algebra/numbers"
+                "algebra/in_factors"))
 
 (defvar *algebra-roots-apart* nil "true: roots of products become products of roots where allowed")
 (defvar *algebra-sign-judge* nil "the sign of what is no number, by the facts; set by facts.lisp")
@@ -43,7 +44,7 @@
   "All factors for the zero test, else the squares only."
   (cond ((atom e) e)
         ((and *algebra-roots-apart* (< (algebra-size e) 400))
-         (or (algebra-quietly (lambda () ($factor e))) e))
+         (algebra-in-factors e 400))
         ((< (algebra-size e) 2000) (or (algebra-quietly (lambda () ($sqfr e))) e))
         (t e)))
 

@@ -1,0 +1,66 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; An expression in factors over the integers, as far as that takes no longer than seconds:
+;;; Maxima's factor is quick for long products, but a sum of high degree, such as x^1000-x-1, keeps
+;;; it busy for ever.  Of such a sum the powers come out that all its terms have.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/common" "algebra/size"))
+
+(defparameter *algebra-factored-degree* 300 "The degree up to which a sum is factored.")
+
+(defun $algebra_in_factors (e size) (algebra-in-factors e size))
+
+(defun algebra-in-factors (e size)
+  "E as a product; what is longer than SIZE, or of high degree, is one factor."
+  (cond ((or (atom e) (> (algebra-size e) size)) e)
+        ((<= (algebra-degree-at-most e) *algebra-factored-degree*)
+         (or (algebra-quietly (lambda () ($factor e))) e))
+        ((mtimesp e) (muln (loop for part in (cdr e) collect (algebra-in-factors part size)) nil))
+        ((and (mexptp e) (typep (caddr e) '(integer 2)))
+         (power (algebra-in-factors (cadr e) size) (caddr e)))
+        ((mplusp e) (algebra-monomial-in-front e))
+        (t e)))
+
+(defun algebra-degree-at-most (e)
+  "Not less than the degree of E in names, functions and exponentials together."
+  (cond (($constantp e) 0)
+        ((atom e) 1)
+        ((mplusp e) (reduce #'max (cdr e) :key #'algebra-degree-at-most))
+        ((or (mtimesp e) (eq (caar e) 'rat))
+         (loop for part in (cdr e) sum (algebra-degree-at-most part)))
+        ((mexptp e) (* (algebra-exponent-size (caddr e)) (max 1 (algebra-degree-at-most (cadr e)))))
+        (t 1)))
+
+(defun algebra-exponent-size (n)
+  "What N adds to a degree: exp(1000*x) is a power of exp(x), x^(500/3) one of x^(1/3)."
+  (let ((number (algebra-rational-number n)))
+    (cond (number (max (abs (numerator number)) (denominator number)))
+          ((mplusp n) (reduce #'max (cdr n) :key #'algebra-exponent-size))
+          ((mtimesp n) (loop with size = 1
+                             for part in (cdr n)
+                             do (setq size (* size (algebra-exponent-size part)))
+                             finally (return size)))
+          (t 1))))
+
+(defun algebra-monomial-in-front (e)
+  "The sum E as a product of the powers that all of its terms have and the rest."
+  (let ((common (loop for (base . nil) in (algebra-plain-powers (cadr e))
+                      for n = (loop for term in (cdr e)
+                                    minimize (or (cdr (assoc base (algebra-plain-powers term)
+                                                             :test #'alike1))
+                                                 0))
+                      unless (zerop n) collect (power base n))))
+    (if (null common)
+        e
+        (let ((monomial (muln common nil)))
+          (mul monomial (addn (loop for term in (cdr e) collect (div term monomial)) nil))))))
+
+(defun algebra-plain-powers (term)
+  "((base . exponent) ..) of the factors of TERM that are no numbers, whole positive powers only."
+  (loop for factor in (if (mtimesp term) (cdr term) (list term))
+        for (base exponent) = (if (mexptp factor) (cdr factor) (list factor 1))
+        when (and (typep exponent '(integer 1)) (not ($constantp base)))
+          collect (cons base exponent)))
