@@ -8,7 +8,7 @@ root=$here/..
 . "$here/check"
 
 maxima() { # HEAP: a session in a heap of so many megabytes; what it says. The time allowed only ends a hang
-  MAXIMA_LISP_OPTIONS="--dynamic-space-size $1 --disable-ldb" timeout -k 5 550 "$root/tools/maxima" --very-quiet 2>&1
+  MAXIMA_LISP_OPTIONS="--dynamic-space-size $1 --disable-ldb" timeout -k 5 1000 "$root/tools/maxima" --very-quiet 2>&1
 }
 
 case $(echo 'build_info()@lisp_name;' | maxima 512) in
