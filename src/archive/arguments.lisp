@@ -31,7 +31,7 @@ and always have values."
       (let ((left (cadr e)))
         (cond ((eq left $functions) (archive-equation '$functions (caddr e)))
               ((eq left $values) (archive-equation '$values (caddr e)))
-              ((and (member left '(nil t)) (eq left $verbose))
+              ((and (member left '(nil t)) (eq left $verbose) (member (caddr e) '(nil t)))
                (archive-equation '$verbose (caddr e)))
               (t e)))
       e))

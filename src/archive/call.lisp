@@ -17,13 +17,14 @@
   (new '())                                 ; steps computed, newest first
   (facts '()))
 
-(defparameter *archive-common-options* '("save" "verbose" "progress" "limit")
+(defparameter *archive-common-options* '("save" "verbose" "progress" "limit" "size")
   "Options of every call.")
 
 (defparameter *archive-option-types*
   '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved"
      "matrices")
     (:seconds "a number of seconds, 0 for no limit" "limit")
+    (:factor "a number, 1 or more: how many times the usual limits of size hold" "size")
     (:form "auto, canonical, factored or program" "form")
     (:function "lagrange, routh or hamilton" "function")
     (:file "a file name in double quotes" "result"))

@@ -54,6 +54,8 @@
   (cond ((member part '($inf $minf $infinity $und $ind)) "is no number")
         ((atom part) nil)
         ((archive-head-p part '%derivative) (archive-strange-derivative part moving))
+        ((archive-head-p part '%sum '%product '%lsum)
+         "has no definite number of terms; give whole numbers as its limits, or a function f(x)")
         ((archive-meant-function part)
          (format nil "is no function of Maxima; ~a?" (archive-meant-text part)))
         ((member 'array (cdar part))

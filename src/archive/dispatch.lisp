@@ -7,18 +7,22 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/decimals" "archive/steps" "archive/options"))
+  (core-require "core/sizes" "archive/call" "archive/decimals" "archive/sums" "archive/steps"
+                "archive/options"))
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
         (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
-        (*core-cheaper* nil))
+        (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*))
     (setq arguments (archive-arguments-taken arguments)
-          *core-cheaper* (archive-cheaper name arguments))
+          *core-cheaper* (archive-cheaper name arguments)
+          *core-size* (archive-size-factor arguments))
     (multiple-value-bind (value text)
         (core-caught (lambda () (archive-in-time name arguments)))
-      (if text (merror "~A" text) value))))
+      (when text (merror "~A" text))
+      (core-warn-now)
+      value)))
 
 (defun archive-in-time (name arguments)
   "The value within the call's limit of time; the dialog, which waits for the person, has none."
@@ -55,6 +59,11 @@
           ((zerop1 limit) nil)
           (t (core-time limit)))))
 
+(defun archive-size-factor (arguments)
+  "How many times the limits of size hold; inside another call as there, unless it is given."
+  (let ((size (archive-early-option arguments '$size nil)))
+    (if (and size (archive-option-fits :factor size)) (core-time size) *core-size*)))
+
 (defun archive-value-or-program (name arguments)
   (multiple-value-bind (value text) (archive-tried name arguments)
     (when (and text *core-too-large* (archive-program-serves-p name arguments))
@@ -80,7 +89,7 @@ none."
 
 (defun archive-called (name &rest arguments)
   (multiple-value-bind (positional options)
-      (archive-split-arguments (archive-exact-decimals arguments))
+      (archive-split-arguments (archive-exact-decimals (archive-sums-written-out arguments)))
     (let ((public (gethash name *core-publics*)))
       (cond ((and (null positional) (core-public-kinds public))
              (archive-ask public options))

@@ -140,7 +140,7 @@ brings."
 (defun archive-warn-free-symbols (kind description)
   (let ((free (archive-free-symbols kind description)))
     (when free
-      (core-warn "free symbols, not listed in parameters: ~{~a~^, ~}" free))))
+      (core-warn-later "free symbols, not listed in parameters: ~{~a~^, ~}" free))))
 
 (defun archive-facts (description)
   "A list of the relations of DESCRIPTION's parameters, as `assume' takes them."

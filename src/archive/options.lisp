@@ -16,13 +16,14 @@
           ((and left (symbolp left) (not (eq left t))) (core-spelling left))
           (t (core-error "an option has the form name = value, found ~a; if the name has a value ~
                           in your session, quote it: 'name = value~:[~; (`on' is true in Maxima, ~
-                          `off' is false)~]"
+                          `off' and `verbose' are false; the option verbose is true or false)~]"
                          (core-words (list equation)) (member left '(nil t)))))))
 
 (defun archive-option-fits (type value)
   (ecase type
     (:truth (member value '(nil t)))
     (:seconds (and (mnump value) (not (mnegp value))))
+    (:factor (and (mnump value) (not (mminusp (sub value 1)))))
     (:form (member value '($auto $canonical $factored $program)))
     (:function (member value '($lagrange $routh $hamilton)))
     (:file (stringp value))))

@@ -62,6 +62,18 @@
       (push text *core-warnings*)
       (core-note "warning: ~a" text))))
 
+(defvar *core-later* '() "Warnings to be given with the result, newest first.")
+
+(defun core-warn-later (control &rest arguments)
+  "A warning about a result; where the call ends in an error, the error alone is said."
+  (let ((text (apply #'format nil control arguments)))
+    (if *core-function* (push text *core-later*) (core-warn "~a" text))))
+
+(defun core-warn-now ()
+  "Gives the warnings that waited for the result."
+  (dolist (text (reverse *core-later*)) (core-warn "~a" text))
+  (setq *core-later* '()))
+
 (defun $core_error (&rest items) (core-signal (core-words items)))
 
 (defun core-section-name (section) (if (stringp section) section (core-words (list section))))
