@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/sizes" "archive/call" "archive/decimals" "archive/sums" "archive/steps"
+  (core-require "archive/call" "archive/decimals" "archive/sums" "archive/steps"
                 "archive/options"))
 
 (defun archive-dispatch (name arguments)
