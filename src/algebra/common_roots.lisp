@@ -44,7 +44,7 @@ too long, or where there are roots or functions of the unknowns or bound paramet
 of NAMES; nil where it gives up."
   (with-algebra-ring
     (let* ((*algebra-may-give-up* t)
-           (*algebra-work-left* *algebra-basis-work*)
+           (*algebra-work-left* (core-sized *algebra-basis-work*))
            (skeletons (mapcar #'algebra-scan (cdr polynomials)))
            (kernels (mapcar #'algebra-scan (cdr names)))
            (answer (catch 'algebra-too-large
@@ -145,7 +145,7 @@ of NAMES; nil where it gives up."
                                  (some (lambda (lead) (algebra-monomial-divides-p lead next))
                                        leads))
                        (setf (cdr (last tail)) (list next)))))
-              when (> (length standard) *algebra-most-points*) return 'infinite
+              when (> (length standard) (core-sized *algebra-most-points*)) return 'infinite
               finally (return standard)))))
 
 (defun algebra-raised (monomial k)

@@ -71,13 +71,18 @@
                       (algebra-times (cons sign 1) (algebra-times (cdr a) (cdr b))))
         (algebra-plus (algebra-times (cdr a) (car b)) (algebra-times (car a) (cdr b)))))
 
+(defparameter *algebra-most-multiple* 500 "The largest multiple of an angle that is expanded.")
+
 (defun algebra-multiple-angle (unit n)
   (let ((cosine (algebra-variable (algebra-unit-cosine unit)))
         (sine (algebra-variable (algebra-unit-sine unit))))
     (cond ((minusp n)
            (let ((positive (algebra-multiple-angle unit (- n))))
              (cons (car positive) (cons (pminus (cadr positive)) (cddr positive)))))
-          ((> n 500) (core-error "sin(~A*u) and sin(u) in one formula are too much to expand" n))
+          ((> n (core-sized *algebra-most-multiple*))
+           (core-error "sin(~A*u) and sin(u) in one formula: multiples of an angle are expanded ~
+                        up to ~A; ~A" n (core-sized *algebra-most-multiple*)
+                       (core-size-advice n *algebra-most-multiple*)))
           (t (algebra-chebyshev cosine sine n)))))
 
 (defun algebra-chebyshev (cosine sine n)

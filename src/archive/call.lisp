@@ -25,7 +25,7 @@
   '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved"
      "matrices")
     (:seconds "a number of seconds, 0 for no limit" "limit")
-    (:factor "a number, 1 or more: how many times the usual limits of size hold" "size")
+    (:factor "a number from 1 to 100: how many times the usual limits of size hold" "size")
     (:form "auto, canonical, factored or program" "form")
     (:function "lagrange, routh or hamilton" "function")
     (:file "a file name in double quotes" "result"))

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/sizes" "archive/call" "archive/decimals" "archive/sums" "archive/steps"
+  (core-require "archive/call" "archive/decimals" "archive/sums" "archive/steps"
                 "archive/options"))
 
 (defun archive-dispatch (name arguments)
@@ -17,7 +17,7 @@
         (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*))
     (setq arguments (archive-arguments-taken arguments)
           *core-cheaper* (archive-cheaper name arguments)
-          *core-size* (archive-size arguments))
+          *core-size* (archive-size-factor arguments))
     (multiple-value-bind (value text)
         (core-caught (lambda () (archive-in-time name arguments)))
       (when text (merror "~A" text))
@@ -59,7 +59,7 @@
           ((zerop1 limit) nil)
           (t (core-time limit)))))
 
-(defun archive-size (arguments)
+(defun archive-size-factor (arguments)
   "How many times the limits of size hold; inside another call as there, unless it is given."
   (let ((size (archive-early-option arguments '$size nil)))
     (if (and size (archive-option-fits :factor size)) (core-time size) *core-size*)))

@@ -23,7 +23,7 @@
   (ecase type
     (:truth (member value '(nil t)))
     (:seconds (and (mnump value) (not (mnegp value))))
-    (:factor (and (mnump value) (not (mminusp (sub value 1)))))
+    (:factor (and (mnump value) (not (mnegp (sub value 1))) (not (mnegp (sub 100 value)))))
     (:form (member value '($auto $canonical $factored $program)))
     (:function (member value '($lagrange $routh $hamilton)))
     (:file (stringp value))))

@@ -126,7 +126,8 @@ factors."
     (archive-refuse "a root of an order above ~d" *archive-root-order*))
   (dolist (n (if (integerp number) (list number) (cdr number)))
     (when (> (archive-integer-digits (archive-without-small-factors n)) 18)
-      (archive-refuse "a root of a number too large to be factored"))))
+      (archive-refuse "a root of a number with a factor of more than 18 digits, too large to be ~
+                       factored"))))
 
 (defun archive-without-small-factors (n)
   "N without its prime factors below 100; N itself when it is very long."
@@ -210,7 +211,8 @@ factors."
   "Adds the STEPS of a product, whose factors Maxima compares and copies, to those of the archive."
   (when *archive-work*
     (when (> (incf (car *archive-work*) steps) *archive-steps*)
-      (archive-refuse "products too long and too many to be simplified"))))
+      (archive-refuse "products too long and too many to be simplified: more than ~d steps"
+                      *archive-steps*))))
 
 (defun archive-check-common-root (factors)
   "An error if roots of numbers in FACTORS would meet in a root of too high an order."

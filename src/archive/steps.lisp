@@ -186,12 +186,12 @@ as the size of what is neglected, and count in no digest: a formula must not dep
                      (cdr (archive-description (archive-call-archive call)))))))
 
 (defun archive-stored-value (call name rule)
-  "The stored result NAME where it is still good, else a new one."
+  "The stored result NAME where it is still good, else a new one; other limits may give more."
   (multiple-value-bind (value state)
       (archive-result (archive-call-archive call) name (archive-digest-of call name)
                       (archive-options-of call name))
     (ecase state
-      (:fresh (if (archive-option call "result" nil)
+      (:fresh (if (or (archive-option call "result" nil) (archive-option call "size" nil))
                   (archive-rule-value call name rule)
                   (values (archive-in-full call name value) t)))
       (:edited

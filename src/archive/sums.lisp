@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/sizes" "archive/decimals"))
+  (core-require "archive/decimals"))
 
 (defparameter *archive-most-terms* 10000 "The most terms of a sum that is written out.")
 

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Limits of size. Some keep the memory or the grammar; the others are a taste: how long a person
-;;; is thought to wait or to read. These hold `size' times, an option of every call, 1 unless given;
-;;; their messages say the number, the place and the option.
+;;; is thought to wait or to read. These hold `size' times, an option of every call, 1 unless given
+;;; and at most 100; their messages say the number, the place and the option.
 
 (in-package :maxima)
 
@@ -13,9 +13,9 @@
 
 (defun core-size-advice (found most)
   "What lifts the limit MOST for what has the size FOUND, a number or nil."
-  (if found
-      (format nil "size = ~D lifts this limit" (ceiling found most))
-      "a larger size, as size = 10, lifts this limit"))
+  (cond ((null found) "size = 10 makes this limit ten times as large")
+        ((<= found (* 100 most)) (format nil "size = ~D lifts this limit" (ceiling found most)))
+        (t "no size up to 100 lifts this limit so far")))
 
 (defun core-within-size (found most what unit)
   "An error where WHAT has FOUND of UNIT, more than MOST times the size."
