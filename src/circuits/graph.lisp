@@ -1,14 +1,11 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Graphs of branches: spanning forest, fundamental loops, Kirchhoff's sums, and elimination
-;;; where transformers join nodes. A branch is a pair of nodes [from, to], known by its number in
-;;; the list; parallel branches stay apart. A loop is a list of [tree branch, sign], sign 1 where
-;;; the way from the first node of the link to its second runs along the arrow. Time: forest n
-;;; log* n by union-find, loops the sum of their lengths, Kirchhoff's sums n; elimination only
-;;; with transformers.
+;;; Graphs: spanning forest, pieces, fundamental loops, Kirchhoff's sums. A branch is here a pair
+;;; of nodes [from, to], known by its number in the list; parallel branches stay apart. A loop is a
+;;; list of [tree branch, sign], sign 1 where the way from the first node of the link to its second
+;;; runs along the arrow. Time: forest n log* n by union-find, loops the sum of their lengths,
+;;; Kirchhoff's sums n.
 
 (in-package :maxima)
-
-(defun circuits-mlist (items) (cons '(mlist simp) items))
 
 (defun circuits-node-table (ends)
   "Hash table node -> number from 0, in the order in which the nodes are met."
@@ -18,7 +15,7 @@
         (unless (gethash node table)
           (setf (gethash node table) (hash-table-count table)))))))
 
-(defun circuits-ends (ends)
+(defun circuits-numbered-ends (ends)
   "Two vectors, first and second node numbers of the branches, and the count of nodes."
   (let* ((table (circuits-node-table ends))
          (from (map 'vector (lambda (pair) (gethash (second pair) table)) (cdr ends)))
@@ -27,15 +24,12 @@
 
 (defun $circuits_nodes (ends)
   "The nodes, in the order in which they are met."
-  (let ((seen (make-hash-table :test #'equal)) (nodes nil))
-    (dolist (pair (cdr ends))
-      (dolist (node (cdr pair))
-        (unless (gethash node seen)
-          (setf (gethash node seen) t)
-          (push node nodes))))
-    (circuits-mlist (nreverse nodes))))
+  (let* ((table (circuits-node-table ends))
+         (nodes (make-array (hash-table-count table))))
+    (maphash (lambda (node number) (setf (aref nodes number) node)) table)
+    (cons '(mlist simp) (coerce nodes 'list))))
 
-;; Spanning forest by Kruskal's rule: the branches are offered in ORDER, one that closes a loop is
+;; Spanning forest by Kruskal's rule: the branches are offered in order, one that closes a loop is
 ;; refused.
 
 (defun circuits-root (parent node)
@@ -44,59 +38,75 @@
                  node (aref parent node)))
   node)
 
+(defun circuits-forest (from to count order)
+  "Two values: the branches of the list ORDER that are accepted, and for each node one above it."
+  (let ((parent (make-array count)) (forest '()))
+    (dotimes (node count) (setf (aref parent node) node))
+    (dolist (branch order (values (nreverse forest) parent))
+      (let ((a (circuits-root parent (aref from (1- branch))))
+            (b (circuits-root parent (aref to (1- branch)))))
+        (unless (= a b)
+          (setf (aref parent a) b)
+          (push branch forest))))))
+
 (defun $circuits_tree (ends order)
   "Numbers of the branches of the spanning forest, as accepted from the list ORDER."
-  (multiple-value-bind (from to count) (circuits-ends ends)
-    (let ((parent (make-array count)) (tree nil))
-      (dotimes (node count) (setf (aref parent node) node))
-      (dolist (branch (cdr order) (circuits-mlist (nreverse tree)))
-        (let ((a (circuits-root parent (aref from (1- branch))))
-              (b (circuits-root parent (aref to (1- branch)))))
-          (unless (= a b)
-            (setf (aref parent a) b)
-            (push branch tree)))))))
+  (multiple-value-bind (from to count) (circuits-numbered-ends ends)
+    (cons '(mlist simp) (values (circuits-forest from to count (cdr order))))))
 
 (defun $circuits_pieces (ends)
   "The connected pieces, each a list of nodes."
-  (multiple-value-bind (from to count) (circuits-ends ends)
-    (let ((parent (make-array count))
-          (members (make-array count :initial-element nil))
-          (pieces nil))
-      (dotimes (node count) (setf (aref parent node) node))
-      (dotimes (branch (length from))
-        (setf (aref parent (circuits-root parent (aref from branch)))
-              (circuits-root parent (aref to branch))))
+  (multiple-value-bind (from to count) (circuits-numbered-ends ends)
+    (let ((parent (nth-value 1 (circuits-forest from to count
+                                                (loop for k from 1 to (length from) collect k))))
+          (members (make-array count :initial-element '())))
       (loop for member in (cdr ($circuits_nodes ends)) for node from 0
             do (push member (aref members (circuits-root parent node))))
-      (dotimes (node count)
-        (when (aref members node) (push (circuits-mlist (nreverse (aref members node))) pieces)))
-      (circuits-mlist (nreverse pieces)))))
+      (cons '(mlist simp)
+            (loop for nodes across members
+                  when nodes collect (cons '(mlist simp) (reverse nodes)))))))
+
+;; A walk over all nodes, each reached from an earlier one but the first of each piece
+
+(defun circuits-neighbours (from to count marks)
+  "For each node a list of (neighbour . mark). MARKS is a list of (branch . mark); from its second
+node to its first a branch has the negative mark."
+  (let ((near (make-array count :initial-element '())))
+    (loop for (branch . mark) in marks
+          for a = (aref from (1- branch)) for b = (aref to (1- branch))
+          do (push (cons b mark) (aref near a))
+             (push (cons a (neg mark)) (aref near b)))
+    near))
+
+(defun circuits-walk (near reach)
+  "Calls REACH on an earlier node, the new one and the mark between them."
+  (let ((seen (make-array (length near) :initial-element nil)))
+    (dotimes (root (length near))
+      (unless (aref seen root)
+        (setf (aref seen root) t)
+        (let ((waiting (list root)))
+          (loop while waiting
+                do (let ((node (pop waiting)))
+                     (loop for (other . mark) in (aref near node)
+                           unless (aref seen other)
+                             do (setf (aref seen other) t)
+                                (funcall reach node other mark)
+                                (push other waiting)))))))))
 
 ;; Fundamental loops: the forest is hung up from one node of each piece; the way between two nodes
 ;; runs over their meeting point.
 
 (defun circuits-hang (from to count tree)
   "Vectors of parent node, parent branch (plus where its arrow points upward) and level."
-  (let ((near (make-array count :initial-element nil))
-        (parent (make-array count :initial-element nil))
+  (let ((parent (make-array count :initial-element nil))
         (upward (make-array count :initial-element 0))
-        (level (make-array count :initial-element nil)))
-    (dolist (branch (cdr tree))
-      (let ((a (aref from (1- branch))) (b (aref to (1- branch))))
-        (push (cons b branch) (aref near a))
-        (push (cons a (- branch)) (aref near b))))
-    (dotimes (root count)
-      (unless (aref level root)
-        (setf (aref level root) 0)
-        (let ((waiting (list root)))
-          (loop while waiting
-                do (let ((node (pop waiting)))
-                     (dolist (step (aref near node))
-                       (unless (aref level (car step))
-                         (setf (aref level (car step)) (1+ (aref level node))
-                               (aref parent (car step)) node
-                               (aref upward (car step)) (- (cdr step)))
-                         (push (car step) waiting))))))))
+        (level (make-array count :initial-element 0)))
+    (circuits-walk (circuits-neighbours from to count
+                                        (loop for branch in tree collect (cons branch branch)))
+                   (lambda (node below branch)
+                     (setf (aref level below) (1+ (aref level node))
+                           (aref parent below) node
+                           (aref upward below) (- branch))))
     (values parent upward level)))
 
 (defun circuits-way (a b parent upward level)
@@ -110,108 +120,38 @@
 
 (defun $circuits_loops (ends tree links)
   "For each of LINKS its loop through TREE, in the order in which it is walked."
-  (multiple-value-bind (from to count) (circuits-ends ends)
-    (multiple-value-bind (parent upward level) (circuits-hang from to count tree)
-      (circuits-mlist
-       (mapcar (lambda (link)
-                 (circuits-mlist
-                  (mapcar (lambda (step) (circuits-mlist (list (abs step) (signum step))))
-                          (circuits-way (aref from (1- link)) (aref to (1- link))
-                                        parent upward level))))
-               (cdr links))))))
+  (multiple-value-bind (from to count) (circuits-numbered-ends ends)
+    (multiple-value-bind (parent upward level) (circuits-hang from to count (cdr tree))
+      (flet ((loop-of (link)
+               (circuits-way (aref from (1- link)) (aref to (1- link)) parent upward level)))
+        (cons '(mlist simp)
+              (loop for link in (cdr links)
+                    collect (cons '(mlist simp)
+                                  (loop for step in (loop-of link)
+                                        collect (list '(mlist simp) (abs step)
+                                                      (signum step))))))))))
 
 ;; Kirchhoff's laws, from the branches themselves and without the tree: the judge of all that is
 ;; derived.
 
 (defun $circuits_current_sums (ends currents)
   "Sum of the currents that leave each node."
-  (multiple-value-bind (from to count) (circuits-ends ends)
-    (let ((totals (make-array count :initial-element nil)))
+  (multiple-value-bind (from to count) (circuits-numbered-ends ends)
+    (let ((totals (make-array count :initial-element '())))
       (loop for flow in (cdr currents) for branch from 0
             do (push flow (aref totals (aref from branch)))
                (push (neg flow) (aref totals (aref to branch))))
-      (circuits-mlist (map 'list #'addn totals (make-array count :initial-element nil))))))
+      (cons '(mlist simp) (loop for flows across totals collect (addn flows nil))))))
 
 (defun $circuits_voltage_gaps (ends voltages)
   "For each branch its voltage less the difference of node potentials, summed up on the way."
-  (multiple-value-bind (from to count) (circuits-ends ends)
-    (let ((near (make-array count :initial-element nil))
-          (potential (make-array count :initial-element nil)))
-      (loop for voltage in (cdr voltages) for branch from 0
-            do (push (cons (aref to branch) (neg voltage)) (aref near (aref from branch)))
-               (push (cons (aref from branch) voltage) (aref near (aref to branch))))
-      (dotimes (root count)
-        (unless (aref potential root)
-          (setf (aref potential root) 0)
-          (let ((waiting (list root)))
-            (loop while waiting
-                  do (let ((node (pop waiting)))
-                       (dolist (step (aref near node))
-                         (unless (aref potential (car step))
-                           (setf (aref potential (car step)) (add (aref potential node) (cdr step)))
-                           (push (car step) waiting))))))))
-      (circuits-mlist
-       (loop for voltage in (cdr voltages) for branch from 0
-             collect (sub (sub voltage (aref potential (aref from branch)))
-                          (neg (aref potential (aref to branch)))))))))
-
-;; Elimination. A row is a list of [column, coefficient]; the pivots are looked for column by
-;; column in the given order.
-
-(defun circuits-simpler (e)
-  (if (atom e) e ($ratsimp e)))
-
-(defun circuits-row-table (row)
-  (let ((table (make-hash-table)))
-    (dolist (entry (cdr row) table)
-      (let ((value (circuits-simpler (add (gethash (second entry) table 0) (third entry)))))
-        (if (zerop1 value)
-            (remhash (second entry) table)
-            (setf (gethash (second entry) table) value))))))
-
-(defun circuits-row-list (table)
-  (let ((entries nil))
-    (maphash (lambda (column value) (push (list column value) entries)) table)
-    (circuits-mlist (mapcar #'circuits-mlist (sort entries #'< :key #'first)))))
-
-(defun circuits-subtract (row pivot factor)
-  "ROW := ROW - FACTOR*PIVOT."
-  (maphash (lambda (column value)
-             (let ((new (circuits-simpler (sub (gethash column row 0) (mul factor value)))))
-               (if (zerop1 new) (remhash column row) (setf (gethash column row) new))))
-           pivot))
-
-(defun circuits-scale (row column)
-  (let ((pivot (gethash column row)))
-    (maphash (lambda (key value)
-               (setf (gethash key row) (circuits-simpler (div value pivot))))
-             row)))
-
-(defun circuits-pivot-row (rows used column)
-  "The shortest unused row with an entry in COLUMN, or nil."
-  (let ((best nil))
-    (dolist (row rows best)
-      (when (and (gethash column row) (not (member row used :test #'eq))
-                 (or (null best) (< (hash-table-count row) (hash-table-count best))))
-        (setq best row)))))
-
-(defun $circuits_elimination (rows order)
-  "[[[column, reduced row], ..] for the columns of ORDER with a pivot, rows left without one]."
-  (let ((tables (mapcar #'circuits-row-table (cdr rows))) (used nil) (pivots nil))
-    (dolist (column (cdr order))
-      (let ((row (circuits-pivot-row tables used column)))
-        (when row
-          (circuits-scale row column)
-          (dolist (other tables)
-            (let ((factor (and (not (eq other row)) (gethash column other))))
-              (when factor (circuits-subtract other row factor))))
-          (push row used)
-          (push (cons column row) pivots))))
-    (circuits-mlist
-     (list (circuits-mlist
-            (mapcar (lambda (pair)
-                      (circuits-mlist (list (car pair) (circuits-row-list (cdr pair)))))
-                    (nreverse pivots)))
-           (circuits-mlist
-            (mapcar #'circuits-row-list
-                    (remove-if (lambda (row) (member row used :test #'eq)) tables)))))))
+  (multiple-value-bind (from to count) (circuits-numbered-ends ends)
+    (let ((potential (make-array count :initial-element 0)))
+      (circuits-walk (circuits-neighbours from to count
+                                          (loop for voltage in (cdr voltages) for branch from 1
+                                                collect (cons branch (neg voltage))))
+                     (lambda (node other rise)
+                       (setf (aref potential other) (add (aref potential node) rise))))
+      (cons '(mlist simp)
+            (loop for voltage in (cdr voltages) for a across from for b across to
+                  collect (sub voltage (sub (aref potential a) (aref potential b))))))))

@@ -5,41 +5,48 @@
 
 (in-package :maxima)
 
+;;; The middle: the circuit as described, its branches checked; the network, sorted by a tree, with
+;;; its matrices. A circuit whose network is refused is still checked.
+
+(core-middle "circuit" '("circuit") "circuits/circuit" "circuits_circuit" "description")
+(core-middle "network" '("circuit") "circuits/network" "circuits_network" "circuit")
+(core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
+
 (core-public "PotentialParts" :kinds '("circuit"))
 (core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts"
-  "description")
+  "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
 (core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
-  "description")
+  "network" "own_parts")
 
 (core-public "StateEquations"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
   :options '("solved" "matrices") :kinds '("circuit"))
 (core-rule "StateEquations" '("circuit") "circuits/state" "circuits_system_equations"
-  "description" "MixedPotential" '("solved" nil) '("matrices" nil))
+  "circuit" "network" "own_parts" "MixedPotential" '("solved" nil) '("matrices" nil))
 (core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
   "MixedPotential" "inductances" "capacitances" '("solved" nil))
 
 (core-public "PotentialRate"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances")) :kinds '("circuit"))
-(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "description"
-  "MixedPotential")
+(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "network"
+  "own_parts" "MixedPotential")
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
-(core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "description")
+(core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
 
 ;;; Linear circuits have Lagrange's function, and with it every form of equations: in loop charges
 
 (core-public "LoopLagrangian" :kinds '("circuit"))
 (core-rule "LoopLagrangian" '("circuit") "circuits/lagrangian" "circuits_loop_lagrangian"
-  "description")
+  "circuit")
 
 (core-public "NodeLagrangian" :kinds '("circuit"))
 (core-rule "NodeLagrangian" '("circuit") "circuits/lagrangian" "circuits_node_lagrangian"
-  "description")
+  "circuit")
 
 (loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
                                 ("forces" "Q"))
