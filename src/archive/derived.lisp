@@ -52,3 +52,10 @@ archive-derived, was said before."
     (when (nthcdr *archive-kept-most* *archive-kept*)
       (setq *archive-kept* (butlast *archive-kept*)))
     (cdr found)))
+
+(defun archive-own-lists (value)
+  "VALUE with lists and matrices of its own: a person may write into what a call returned, and must
+not reach what is kept."
+  (if (and (consp value) (consp (car value)) (member (caar value) '(mlist $matrix mequal)))
+      (cons (car value) (mapcar #'archive-own-lists (cdr value)))
+      value))

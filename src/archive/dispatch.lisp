@@ -154,7 +154,8 @@ none."
   (core-guarded (archive-call-facts call)
                 (lambda ()
                   (let ((target (core-public-name (archive-call-public call))))
-                    (prog1 (archive-abbreviated call (archive-value call target))
+                    (prog1 (archive-own-lists
+                            (archive-abbreviated call (archive-value call target)))
                       (archive-save-steps call))))))
 
 (setq *core-dispatcher* #'archive-dispatch)
