@@ -4,7 +4,7 @@
 
 (in-package :maxima)
 
-(core-require "archive/check" "archive/results")
+(core-require "archive/open" "archive/results")
 
 (defun test-list (items) (cons '(mlist simp) items))
 
@@ -30,13 +30,13 @@
 
 (defun $test_defaults_fit ()
   "Names of the keys whose default does not pass the check of their own type."
-  (test-list (loop for key in *archive-keys*
+  (test-list (loop for key in (loop for sort in (archive-all-sorts) append (archive-all-keys (archive-sort-name sort)))
                    when (and (archive-default key) (archive-value-trouble key (archive-default key)))
                      collect (archive-key-name key))))
 
 (defun $test_types_known ()
   "Names of the keys whose type has no phrase or no check."
-  (test-list (loop for key in *archive-keys*
+  (test-list (loop for key in (loop for sort in (archive-all-sorts) append (archive-all-keys (archive-sort-name sort)))
                    unless (and (archive-type-phrase (archive-key-type key))
                                (fboundp (archive-type-function (archive-key-type key))))
                      collect (archive-key-name key))))

@@ -51,7 +51,7 @@
                 append (core-public-options public)
                 append (core-public-trailing public)
                 append (loop for form in (core-public-forms public) append (cdr form)))
-          (loop for kind in *archive-kinds*
+          (loop for kind in (core-kind-names)
                 append (mapcar #'archive-key-name (archive-option-keys kind)))
           '("description" "form" "coordinates")))
 

@@ -5,10 +5,12 @@
 
 (in-package :maxima)
 
-(defparameter *analysis-motions* '("mechanical" "lagrangian")
-  "Kinds whose equations are of second order.")
-(defparameter *analysis-states* '("circuit" "equations" "poisson")
+(defparameter *analysis-states* (core-kinds-giving "state_equations")
   "Kinds whose equations are of first order.")
+(defparameter *analysis-motions*
+  (remove-if (lambda (kind) (member kind *analysis-states* :test #'string=))
+             (core-kinds-giving "Lagrangian"))
+  "Kinds whose equations are of second order.")
 (defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
 (defparameter *analysis-none* '((mlist simp)))
 (defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
@@ -21,12 +23,6 @@
 (defparameter *analysis-variables* (list "variables" *analysis-none*))
 
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
-
-(core-rule-same-as "state_equations" '("circuit") "StateEquations")
-(core-rule-same-as "state_equations" '("equations") "equations")
-(core-rule-same-as "state_equations" '("poisson") "poisson_equations")
-(core-rule-same-as "known_integrals" '("equations") "integrals")
-(core-rule-same-as "known_integrals" '("poisson") "poisson_integrals")
 
 ;;; Stationary sets
 
@@ -68,6 +64,7 @@
 
 ;;; First approximation and criteria
 
+(core-option '("lagrange" "routh" "hamilton") "function")
 (core-public "FirstApproximation"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "solution")
            ("equations" "equations" "solution"))
@@ -143,8 +140,8 @@
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers") :kinds '("equations" "poisson"))
-(core-rule "RouthLyapunov" '("equations" "poisson") "analysis/routh_lyapunov"
+  :options '("where" "unknowns" "multipliers") :kinds (core-kinds-giving "known_integrals"))
+(core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
   "analysis_routh_lyapunov_on"
   "state_equations" "known_integrals" "variables" *analysis-unknowns* *analysis-where*
   *analysis-laws* (list "multipliers" *analysis-none*) (list "level" *analysis-none*)

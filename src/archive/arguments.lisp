@@ -69,9 +69,7 @@ subscripts, and a formula may stand for a law of its own.")
 (defun archive-argument-type (name kind)
   "The type of the argument or option NAME in a call of KIND, or nil. K is a function to some
 functions and a matrix to others."
-  (let ((key (find-if (lambda (key) (and (string= (archive-key-name key) name)
-                                         (string= (archive-key-section key) "system")))
-                      *archive-keys*)))
+  (let ((key (archive-find-key nil "system" name)))
     (cond ((string= name "K") (if (string= kind "forces") :square :formula))
           ((car (find-if (lambda (row) (member name (cdr row) :test #'string=))
                          *archive-argument-names*)))

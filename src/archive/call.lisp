@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/check" "archive/results" "archive/contents"))
+  (core-require "archive/open" "archive/results" "archive/contents"))
 
 (defstruct archive-call
   public archive kind
@@ -20,17 +20,6 @@
 
 (defparameter *archive-common-options* '("save" "verbose" "progress" "limit" "size")
   "Options of every call.")
-
-(defparameter *archive-option-types*
-  '((:truth "true or false" "save" "verbose" "progress" "simplify" "expanded" "eliminate" "solved"
-     "matrices")
-    (:seconds "a number of seconds, 0 for no limit" "limit")
-    (:factor "a number from 1 to 100: how many times the usual limits of size hold" "size")
-    (:form "auto, canonical, factored or program" "form")
-    (:function "lagrange, routh or hamilton" "function")
-    (:file "a file name in double quotes" "result"))
-  "What the value of an option may be, and the options of which that holds; other values are looked
-at where they are used.")
 
 (defun archive-split-arguments (arguments)
   "Two values: the leading arguments, and the options, equations at the end."

@@ -41,7 +41,7 @@
 (defun archive-unknown-advice (kind word name)
   "What to tell of the unknown key NAME."
   (let ((near (core-nearest name (archive-key-names kind word)))
-        (kinds (archive-key-kinds-of word name)))
+        (kinds (archive-kinds-with word name)))
     (cond (kinds (format nil "it is a key of the kind~:[~;s~] ~{~a~^, ~}" (cdr kinds) kinds))
           (near (format nil "did you mean ~a?" near))
           (t "it is not read"))))
@@ -164,14 +164,10 @@ other keys of GROUP."
     (and digits (plusp (length digits)) (every #'digit-char-p digits) (char/= (char digits 0) #\0)
          (< (length digits) 8) (parse-integer digits))))
 
-(defun archive-section-row-of (kind section)
-  "The row of *archive-sections* for the group SECTION of an archive of KIND, or nil."
-  (find (archive-table-word section) (archive-sections-of kind) :key #'first :test #'string=))
-
-(defun archive-section-form-p (row section)
-  "Whether SECTION is named as ROW of the table says: \"body 2\", \"frame orbit\", \"branches\"."
+(defun archive-named-as-sort-p (sort section)
+  "Whether SECTION is named as SORT says: \"body 2\", \"frame orbit\", \"branches\"."
   (let ((rest (subseq section (min (length section) (length (archive-section-word section))))))
-    (ecase (third row)
+    (ecase (archive-sort-form sort)
       ((:one :rows) (string= rest ""))
       ((:counted :numbered) (and (archive-section-number section) t))
       (:named (and (> (length rest) 1) (alpha-char-p (char rest 1))
@@ -179,22 +175,24 @@ other keys of GROUP."
 
 (defun archive-warn-section (kind group)
   (let* ((section (archive-group-section group))
-         (row (archive-section-row (archive-section-word section)))
-         (near (core-nearest (archive-section-word section)
-                             (mapcar #'first (archive-sections-of kind)))))
+         (word (archive-section-word section))
+         (sort (archive-find-sort nil word))
+         (near (core-nearest word (mapcar #'archive-sort-name (archive-sorts kind)))))
     (core-warn "~@[line ~d: ~]unknown section [~a]; ~a" (archive-group-line group) section
-               (cond ((and row (archive-section-row-of kind section))
-                      (format nil "it is written [~a]" (archive-heading row)))
-                     (row (format nil "it belongs to the kind ~{~a~^, ~}" (second row)))
+               (cond ((and sort (archive-find-sort kind (archive-table-word section)))
+                      (format nil "it is written [~a]" (archive-heading sort)))
+                     (sort (format nil "it belongs to the kind ~{~a~^, ~}"
+                                   (archive-kinds-with word)))
                      (near (format nil "did you mean [~a]?"
-                                   (archive-heading (archive-section-row near))))
+                                   (archive-heading (archive-find-sort kind near))))
                      (t "it is not read")))))
 
 (defun archive-known-groups (kind groups)
   "The groups that an archive of KIND has; a warning for each other one."
   (remove-if-not (lambda (group)
-                   (let ((row (archive-section-row-of kind (archive-group-section group))))
-                     (or (and row (archive-section-form-p row (archive-group-section group)))
+                   (let* ((section (archive-group-section group))
+                          (sort (archive-find-sort kind (archive-table-word section))))
+                     (or (and sort (archive-named-as-sort-p sort section))
                          (progn (archive-warn-section kind group) nil))))
                  groups))
 
@@ -211,27 +209,28 @@ other keys of GROUP."
   (remove-if-not (lambda (group)
                    (string= word (archive-section-word (archive-group-section group)))) groups))
 
-(defun archive-counted-groups (groups all-groups word count)
-  "The groups \"WORD 1\" to \"WORD COUNT\", in this order; one too few or too many is an error."
+(defun archive-counted-groups (groups all-groups word counting count)
+  "The groups \"WORD 1\" to \"WORD COUNT\", in this order; one too few or too many is an error.
+COUNTING is the key of [system] that gives the number."
   (dolist (group (archive-groups-like groups word))
     (when (> (archive-section-number (archive-group-section group)) count)
       (core-fault (archive-group-section group) nil
-                  "there are ~d bodies; set bodies = ~d, or leave the section out"
-                  count (archive-section-number (archive-group-section group)))))
+                  "there are ~d ~a; set ~a = ~d, or leave the section out" count counting counting
+                  (archive-section-number (archive-group-section group)))))
   (loop for k from 1 to count
         collect (let ((section (format nil "~a ~d" word k)))
                   (or (archive-find-group groups section)
-                      (archive-fault-section section count all-groups)))))
+                      (archive-fault-section section counting count all-groups)))))
 
-(defun archive-fault-section (section count groups)
-  "The section that BODIES asks for is missing; a misspelt one is named."
+(defun archive-fault-section (section counting count groups)
+  "The SECTION that the key COUNTING asks for is missing; a misspelt one is named."
   (let ((meant (core-nearest section (mapcar #'archive-group-section groups))))
-    (core-fault "system" "bodies"
-                "bodies = ~d, and section [~a] is missing~@[; is [~a] meant for it?~]" count
+    (core-fault "system" counting
+                "~a = ~d, and section [~a] is missing~@[; is [~a] meant for it?~]" counting count
                 section
-                (and meant (not (archive-section-row (archive-section-word meant))) meant))))
+                (and meant (not (archive-find-sort nil (archive-section-word meant))) meant))))
 
-;;; Rows of a circuit
+;;; Sections of rows
 
 (defun archive-row-value (group k statement)
   (let* ((row (archive-statement-value statement))
@@ -249,44 +248,6 @@ other keys of GROUP."
                                              for k from 1
                                              collect (archive-row-value group k statement))))))
 
-(defun archive-graph-group (rows)
-  "The branches of a graph as a group."
-  (make-archive-group :section "branches"
-                      :statements (mapcar (lambda (row) (make-archive-statement :value row))
-                                          (cdr rows))))
-
-(defun archive-without-graph (equations sign-given)
-  "The equations of [system] with `graph' taken out; it implies sign = generator."
-  (loop for equation in equations
-        unless (eq (second equation) '$graph)
-          collect (if (and (eq (second equation) '$sign) (not sign-given))
-                      (archive-equation '$sign '$generator)
-                      equation)))
-
-(defun archive-circuit (groups system)
-  "Two values: the equations of [system] without graph, and the group of the branches, from
-[branches] or from graph."
-  (let ((graph (find '$graph system :key #'second))
-        (branches (archive-find-group groups "branches"))
-        (given (archive-find-group groups "system")))
-    (cond ((and graph branches)
-           (core-fault "system" "graph"
-                       "the branches stand twice, in graph and in [branches]; leave one of them ~
-                        out"))
-          (graph (values (archive-without-graph system (archive-given-p given "sign"))
-                         (archive-graph-group (third graph))))
-          (branches (values system branches))
-          (t (core-fault "system" nil
-                         "a circuit has branches; add a section [branches], or the key graph")))))
-
-(defun archive-circuit-equations (groups system)
-  (multiple-value-bind (equations branches) (archive-circuit groups system)
-    (append equations
-            (list (archive-rows-equation "branches" branches)
-                  (archive-rows-equation "couplings" (archive-find-group groups "couplings"))
-                  (archive-rows-equation "transformers"
-                                         (archive-find-group groups "transformers"))))))
-
 ;;; The whole
 
 (defun archive-section-equation (kind group)
@@ -294,12 +255,18 @@ other keys of GROUP."
   (archive-equation (archive-group-section group)
                     (archive-list (archive-checked-keys kind group))))
 
-(defun archive-mechanical-equations (kind groups all-groups system)
-  (let* ((count (third (find '$bodies system :key #'second)))
-         (sections (append (archive-counted-groups groups all-groups "body" count)
-                           (loop for word in '("frame" "spring" "force" "torque")
-                                 append (archive-groups-like groups word)))))
-    (append system (mapcar (lambda (group) (archive-section-equation kind group)) sections))))
+(defun archive-sort-equations (kind sort known groups system)
+  "The equations of the sections of SORT, one of KIND: of the KNOWN ones among GROUPS."
+  (let ((word (archive-sort-name sort)) (counting (archive-sort-detail sort)))
+    (flet ((equations (groups)
+             (mapcar (lambda (group) (archive-section-equation kind group)) groups)))
+      (ecase (archive-sort-form sort)
+        (:one '())
+        (:rows (list (archive-rows-equation word (archive-find-group known word))))
+        ((:named :numbered) (equations (archive-groups-like known word)))
+        (:counted (equations (archive-counted-groups
+                              known groups word counting
+                              (third (find (core-symbol counting) system :key #'second)))))))))
 
 (defun archive-system-needed-p (kind)
   "Whether [system] has keys that an archive of KIND must state."
@@ -314,6 +281,11 @@ other keys of GROUP."
            (core-error "there is no section [system]~@[; is [~a] meant for it?~]" meant))
           (t (make-archive-group :section "system")))))
 
+(defun archive-completed (kind system groups)
+  "Two values: SYSTEM and GROUPS with what the keys and sections of this KIND imply."
+  (let ((completed (core-kind-completed (core-find-kind kind))))
+    (if completed (core-call completed system groups) (values system groups))))
+
 (defun archive-checked (groups)
   "The checked description of GROUPS."
   (let ((kind (archive-checked-kind groups)))
@@ -322,9 +294,8 @@ other keys of GROUP."
            (top (archive-find-group known "archive"))
            (system (archive-checked-keys kind (archive-system-group kind groups)))
            (head (remove '$dynarch (archive-checked-keys kind top) :key #'second)))
-      (archive-list
-       (append head
-               (cond ((string= kind "mechanical")
-                      (archive-mechanical-equations kind known groups system))
-                     ((string= kind "circuit") (archive-circuit-equations known system))
-                     (t system)))))))
+      (multiple-value-setq (system known) (archive-completed kind system known))
+      (archive-list (append head system
+                            (loop for sort in (archive-sorts kind)
+                                  append (archive-sort-equations kind sort known groups
+                                                                 system)))))))

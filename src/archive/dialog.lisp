@@ -1,122 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The dialog: asks for the keys of an archive in the order of the table of keys, the system
-;;; first, then section by section. Every answer goes through the parser and the checks that read
-;;; archives. `?' explains, Enter takes the default, `.' takes the defaults of the rest of a
-;;; section. At the end: the echo, changes, the file. End of input leaves nothing behind.
+;;; first, then section by section; then the description is shown, tried, changed until the person
+;;; is content, and written. An item is changed by its number, one that was passed over by its key.
+;;; End of input leaves nothing behind. Look first at archive-dialog, at the end.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/check" "archive/store"))
-
-(defvar *archive-asked* '() "The questions asked in this dialog.")
-(defvar *archive-fresh-input* nil
-  "True until the first line is read: what is left of the line that called us is passed over.")
-
-(defstruct archive-item section key text)
-
-;;; Asking a line, as Maxima itself asks
-
-(defun archive-input-stream ()
-  #+sbcl *standard-input*
-  #-sbcl *query-io*)
-
-(defun archive-prompt (question)
-  "QUESTION as Maxima's own read() prints it, so that a worksheet shows it as a prompt."
-  (format-prompt nil "~a"
-                 (string-right-trim '(#\Newline #\Space)
-                                    (with-output-to-string (*standard-output*)
-                                      (mfuncall '$print question)))))
-
-(defun archive-numbered-question (question)
-  "QUESTION, numbered when it is asked again: worksheets fill in the old answer to a question of
-the same text."
-  (push question *archive-asked*)
-  (let ((times (count question *archive-asked* :test #'string=)))
-    (if (= times 1) question (format nil "(~d) ~a" times question))))
-
-(defun archive-ask-line (question)
-  "The person's answer to QUESTION, without blanks around it and without a closing semicolon."
-  (fresh-line)
-  (write-string (archive-prompt (archive-numbered-question question)))
-  (terpri)
-  (finish-output)
-  (let ((line (archive-read-line)))
-    (when (null line)
-      (core-error "the input ended before the description was complete; nothing was written"))
-    (archive-trimmed-answer line)))
-
-(defun archive-filled (text)
-  "TEXT on lines of less than 79 letters, broken at blanks; the lines it has already stay."
-  (with-output-to-string (out)
-    (let ((column 0))
-      (loop for start = 0 then (1+ end)
-            for end = (position-if (lambda (c) (member c '(#\Space #\Newline))) text :start start)
-            for word = (subseq text start end)
-            for newline = (and (> start 0) (char= (char text (1- start)) #\Newline))
-            do (cond ((= start 0))
-                     (newline (terpri out) (setq column 0))
-                     ((> (+ column 1 (length word)) 78) (format out "~%    ") (setq column 4))
-                     (t (write-char #\Space out) (incf column)))
-               (write-string word out)
-               (incf column (length word))
-            while end))))
-
-(defun archive-say (control &rest arguments)
-  (core-say (archive-filled (apply #'format nil control arguments))))
-
-(defun archive-read-line ()
-  (let ((line (core-waiting (lambda () (read-line (archive-input-stream) nil nil)))))
-    (if (and *archive-fresh-input* line (string= "" (string-trim '(#\Space #\Tab #\Return) line)))
-        (progn (setq *archive-fresh-input* nil) (archive-read-line))
-        (progn (setq *archive-fresh-input* nil) line))))
-
-(defun archive-trimmed-answer (line)
-  (let ((answer (string-trim '(#\Space #\Tab #\Return #\Newline) line)))
-    (if (and (plusp (length answer)) (char= (char answer (1- (length answer))) #\;))
-        (string-right-trim '(#\Space #\Tab) (subseq answer 0 (1- (length answer))))
-        answer)))
-
-(defun archive-yes-p (question)
-  (let ((answer (string-downcase (archive-ask-line question))))
-    (member answer '("y" "yes") :test #'string=)))
-
-;;; One key
-
-(defun archive-question-text (key section required)
-  (format nil "~@[~a: ~]~a~a" (and (string/= section "top") section) (archive-key-question key)
-          (cond (required " (needed; ? explains)")
-                ((archive-default key) (format nil " [~a]" (archive-default key)))
-                (t " [Enter: none]"))))
-
-(defun archive-explain (key)
-  (archive-say "  ~a: ~a. Type ~a.~@[ Enter takes ~a.~]" (archive-key-name key)
-               (archive-key-help key) (archive-type-phrase (archive-key-type key))
-               (archive-default key)))
-
-(defun archive-quoted-text (text)
-  "TEXT as a string of the archive, if it is not one yet."
-  (if (char= (char text 0) #\") text (format nil "\"~a\"" (substitute #\' #\" text))))
-
-(defun archive-answer-for-archive (key answer)
-  (if (and (eq (archive-key-type key) :text) (plusp (length answer)))
-      (archive-quoted-text answer)
-      answer))
-
-(defun archive-ask-key (key section required)
-  "The text of the value of KEY; nil for its default, :rest where the person takes all defaults
-that follow."
-  (loop
-    (let* ((answer (archive-ask-line (archive-question-text key section required)))
-           (text (archive-answer-for-archive key answer)))
-      (cond ((string= answer "?") (archive-explain key))
-            ((and (string= answer ".") (not required)) (return :rest))
-            ((and (member answer '("" ".") :test #'string=) required)
-             (archive-say "  ~a is needed: ~a." (archive-key-name key)
-                          (archive-type-phrase (archive-key-type key))))
-            ((string= answer "") (return nil))
-            (t (let ((trouble (archive-value-trouble key text)))
-                 (if trouble (archive-say "  ~a" trouble) (return text))))))))
+  (core-require "archive/questions" "archive/open" "archive/store"))
 
 ;;; Sections
 
@@ -151,38 +42,39 @@ that follow."
                   (text
                    (push (make-archive-item :section section :key key :text text) answers)))))))))
 
-(defun archive-ask-count (row)
-  "How many sections of the sort ROW there are."
+(defun archive-ask-count (sort)
+  "How many sections of the SORT there are."
   (loop
     (let ((answer (archive-ask-line (format nil "Number of sections [~a k], ~a [0]"
-                                            (first row) (fourth row)))))
+                                            (archive-sort-name sort) (archive-sort-meaning sort)))))
       (cond ((string= answer "") (return 0))
             ((and (every #'digit-char-p answer) (< (length answer) 4))
              (return (parse-integer answer)))
             (t (archive-say "  [~a k]: ~a. Type how many there are, such as 1; Enter takes 0."
-                            (first row) (fourth row)))))))
+                            (archive-sort-name sort) (archive-sort-meaning sort)))))))
 
-(defun archive-ask-names (row)
-  "Names of the sections of the sort ROW, one after another, until an empty answer."
-  (let ((names '()))
+(defun archive-ask-names (sort)
+  "Names of the sections of the SORT, one after another, until an empty answer."
+  (let ((word (archive-sort-name sort)) (meaning (archive-sort-meaning sort)) (names '()))
     (loop
-      (let ((name (archive-ask-line (format nil "Name of a [~a], ~a [Enter: no more]"
-                                            (first row) (fourth row)))))
+      (let ((name (archive-ask-line (format nil "Name of a [~a], ~a [Enter: no more]" word
+                                            meaning))))
         (cond ((string= name "") (return (nreverse names)))
               ((member name names :test #'string=)
-               (archive-say "  There is a [~a ~a] already." (first row) name))
+               (archive-say "  There is a [~a ~a] already." word name))
               ((archive-plain-name-p name) (push name names))
-              (t (archive-say "  [~a]: ~a. Type a name, such as ~a1; Enter ends."
-                              (first row) (fourth row) (first row))))))))
+              (t (archive-say "  [~a]: ~a. Type a name, such as ~a1; Enter ends." word meaning
+                              word)))))))
 
 (defun archive-plain-name-p (text)
   (and (null (archive-trouble (lambda () (archive-parse-value text))))
        (archive-symbol-p (archive-parse-value text))))
 
+(defun archive-row-form (section) (archive-sort-meaning (archive-find-sort nil section)))
+
 (defun archive-ask-rows (section)
   "The rows of SECTION, one a line, until an empty answer."
-  (archive-say "  [~a]: one row a line, ~a; Enter ends." section
-               (fourth (archive-section-row section)))
+  (archive-say "  [~a]: one row a line, ~a; Enter ends." section (archive-row-form section))
   (loop for n from 1
         for row = (archive-ask-good-row section n)
         until (string= row "")
@@ -192,38 +84,43 @@ that follow."
   (loop
     (let* ((row (archive-ask-line (format nil "~a: row ~d [Enter: no more]" section n)))
            (trouble (and (string/= row "") (string/= row "?") (archive-row-trouble section row))))
-      (cond ((string= row "?") (archive-say "  ~a" (fourth (archive-section-row section))))
+      (cond ((string= row "?") (archive-say "  ~a" (archive-row-form section)))
             (trouble (archive-say "  ~a" trouble))
             (t (return row))))))
 
-(defun archive-section-names (row answers)
-  "Names of the sections of one sort, as ROW of *archive-sections* says there are."
-  (let ((word (first row)))
-    (ecase (third row)
+(defun archive-section-names (sort answers)
+  "Names of the sections of one SORT."
+  (let ((word (archive-sort-name sort)))
+    (ecase (archive-sort-form sort)
       (:one (list word))
-      (:counted (loop for k from 1 to (parse-integer (archive-answered answers "system" "bodies"))
+      (:counted (loop for k from 1 to (parse-integer (archive-answered answers "system"
+                                                                       (archive-sort-detail sort)))
                       collect (format nil "~a ~d" word k)))
-      (:numbered (loop for k from 1 to (archive-ask-count row)
+      (:numbered (loop for k from 1 to (archive-ask-count sort)
                        collect (format nil "~a ~d" word k)))
       (:named (mapcar (lambda (name) (format nil "~a ~a" word name))
-                      (archive-ask-names row))))))
+                      (archive-ask-names sort))))))
 
 (defun archive-ask-title (kind)
   (let* ((key (archive-find-key kind "top" "title"))
          (text (archive-ask-key key "top" nil)))
     (when (stringp text) (list (make-archive-item :section "top" :key key :text text)))))
 
+(defun archive-ask-sort (kind sort answers)
+  "Answers to all sections of one SORT, after ANSWERS."
+  (let ((word (archive-sort-name sort)) (instead (core-kind-instead (core-find-kind kind))))
+    (cond ((string= word "top") '())
+          ((not (eq (archive-sort-form sort) :rows))
+           (loop for section in (archive-section-names sort answers)
+                 append (archive-ask-section kind word section)))
+          ((and instead (archive-answered answers "system" instead)) '())
+          (t (archive-ask-rows word)))))
+
 (defun archive-ask-sections (kind)
   "All answers but the title, in the order of the table."
   (let ((answers '()))
-    (dolist (row (archive-sections-of kind) answers)
-      (cond ((string= (first row) "top"))
-            ((eq (third row) :rows)
-             (unless (archive-answered answers "system" "graph")
-               (setq answers (append answers (archive-ask-rows (first row))))))
-            (t (dolist (section (archive-section-names row answers))
-                 (setq answers (append answers
-                                       (archive-ask-section kind (first row) section)))))))))
+    (dolist (sort (archive-sorts kind) answers)
+      (setq answers (append answers (archive-ask-sort kind sort answers))))))
 
 (defun archive-ask-kind (kinds)
   (if (null (cdr kinds))
@@ -232,3 +129,131 @@ that follow."
         (let ((answer (archive-ask-line (format nil "Kind of system (~{~a~^, ~})" kinds))))
           (when (member answer kinds :test #'string=) (return answer))
           (archive-say "  Type one of ~{~a~^, ~}." kinds)))))
+
+;;; The description as it stands
+
+(defun archive-text-of-answers (kind answers)
+  "The archive that ANSWERS make."
+  (with-output-to-string (out)
+    (format out "dynarch = 1~%kind = ~a~%" kind)
+    (let ((section "top"))
+      (dolist (answer answers)
+        (unless (equal section (archive-item-section answer))
+          (setq section (archive-item-section answer))
+          (format out "~%[~a]~%" section))
+        (format out "~a~%" (archive-item-line answer))))))
+
+(defun archive-item-line (item)
+  "ITEM as it stands in an archive."
+  (format nil "~@[~a = ~]~a"
+          (and (archive-item-key item) (archive-key-name (archive-item-key item)))
+          (archive-item-text item)))
+
+(defun archive-echo (items)
+  (archive-say "The description:")
+  (loop for item in items for n from 1
+        do (archive-say "~3d  ~@[~a: ~]~a" n
+                        (and (string/= (archive-item-section item) "top")
+                             (archive-item-section item))
+                        (archive-item-line item))))
+
+;;; Changes
+
+(defun archive-new-text (item)
+  "What the person wants instead of the text of ITEM; the old text where no answer is given."
+  (let ((key (archive-item-key item)))
+    (if key
+        (let ((text (archive-ask-key key (archive-item-section item) nil)))
+          (if (stringp text) text (archive-item-text item)))
+        (archive-ask-good-row (archive-item-section item) 1))))
+
+(defun archive-named-key (kind answer items)
+  "Section and key that ANSWER names, `field' or `body 1: inertia', or nil."
+  (let* ((colon (position #\: answer))
+         (section (if colon (string-trim " " (subseq answer 0 colon)) "system"))
+         (name (string-trim " " (if colon (subseq answer (1+ colon)) answer)))
+         (key (and (or (string= section "system")
+                       (find section items :key #'archive-item-section :test #'string=))
+                   (archive-find-key kind (archive-section-word section) name))))
+    (and key (values section key))))
+
+(defun archive-item-of (items section key)
+  (find-if (lambda (item)
+             (and (string= section (archive-item-section item)) (eq key (archive-item-key item))))
+           items))
+
+(defun archive-with-item (items new)
+  "ITEMS with NEW behind the last one of its section, or first of all."
+  (let ((last (position (archive-item-section new) items :key #'archive-item-section
+                        :test #'string= :from-end t)))
+    (append (subseq items 0 (if last (1+ last) 0)) (list new)
+            (nthcdr (if last (1+ last) 0) items))))
+
+(defun archive-change-named (items section key)
+  "ITEMS after the person has given a value to KEY of SECTION."
+  (let ((item (or (archive-item-of items section key)
+                  (make-archive-item :section section :key key :text nil))))
+    (setf (archive-item-text item) (archive-new-text item))
+    (if (or (null (archive-item-text item)) (member item items))
+        items
+        (archive-with-item items item))))
+
+(defun archive-change (kind items answer)
+  "ITEMS after the change that ANSWER asks for: a number of the echo, or a key."
+  (let ((number (and (plusp (length answer)) (every #'digit-char-p answer) (< (length answer) 5)
+                     (parse-integer answer))))
+    (multiple-value-bind (section key) (archive-named-key kind answer items)
+      (cond ((and number (<= 1 number (length items)))
+             (let ((item (nth (1- number) items)))
+               (setf (archive-item-text item) (archive-new-text item)))
+             items)
+            (key (archive-change-named items section key))
+            (t (archive-say "  Type a number from 1 to ~d, a key such as field, or a section and ~
+                             its key such as body 1: inertia."
+                            (length items))
+               items)))))
+
+(defun archive-ask-changes (kind items trial)
+  "Shows the description until the person is content and it passes all checks; returns its text.
+What the function that was called finds wrong with it is shown too, and may be kept."
+  (loop
+    (archive-echo items)
+    (let* ((text (archive-text-of-answers kind items))
+           (fault (archive-text-trouble text))
+           (trouble (or fault (funcall trial text))))
+      (when trouble (archive-say "  ~a" trouble))
+      (let ((answer (archive-ask-line
+                     (format nil
+                             "Number or key of an item to change~:[ ~
+                              [Enter: ~:[all is right~;keep it so~]]~;~]"
+                             fault trouble))))
+        (if (and (string= answer "") (not fault))
+            (return text)
+            (setq items (archive-change kind items answer)))))))
+
+;;; The file
+
+(defun archive-ask-file (kind)
+  "The file to write; one that is there is replaced only after `yes'."
+  (loop
+    (let* ((answer (archive-ask-line (format nil "File [~a.txt]" kind)))
+           (file (if (string= answer "") (format nil "~a.txt" kind) (string-trim "\"" answer))))
+      (when (or (not (core-existing-file file))
+                (archive-yes-p (format nil "~a exists; replace it? (yes or no)" file)))
+        (return file)))))
+
+(defun archive-dialog (name kinds trial)
+  "Asks for the description of a system of one of KINDS for the function NAME; returns the path of
+the archive written. TRIAL tells what is wrong with a text, or nil."
+  (let ((*archive-fresh-input* (null $load_pathname)) (*archive-asked* '()))
+    (archive-say "~a: description of a system. ? explains a question, Enter takes the answer in ~
+                  [ ], . takes them all to the end of a section."
+                 name)
+    (let* ((kind (archive-ask-kind kinds))
+           (sections (archive-ask-sections kind))
+           (text (archive-ask-changes kind (append (archive-ask-title kind) sections) trial))
+           (file (archive-ask-file kind)))
+      (archive-write-new file text)
+      (archive-say "The description is in ~a. The same again without questions:~%~a(\"~a\");"
+                   file name file)
+      file)))

@@ -99,7 +99,7 @@ none."
 
 (defun archive-ask (public options)
   "The dialog, which ends in a path; then the call on it."
-  (core-require "archive/dialog_end")
+  (core-require "archive/dialog")
   (let ((path (funcall 'archive-dialog (core-public-name public) (core-public-kinds public)
                        (lambda (text) (archive-trial-trouble public text options)))))
     (archive-watched options (lambda () (archive-call-system public (list path) options)))))

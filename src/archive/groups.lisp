@@ -60,7 +60,7 @@
 header, or nil."
   (let* ((group (archive-find-group groups section))
          (statement (or (archive-find-statement group key)
-                        (and (archive-row-section-p section) (archive-find-row group key)))))
+                        (and (archive-row-parser section) (archive-find-row group key)))))
     (cond (statement (archive-statement-line statement))
           (group (archive-group-line group))
           ((string= section "branches") (archive-line groups "system" "graph")))))
@@ -164,15 +164,12 @@ header, or nil."
   "Whether NAME, the key of an item of a description list, names a section."
   (and (position #\Space name) t))
 
-(defun archive-row-section-p (name)
-  (eq (third (archive-section-row name)) :rows))
-
 (defun archive-list-group (equation)
   "The group of a section or of rows in a description list."
   (let ((name (archive-list-key equation)))
     (make-archive-group
      :section name
-     :statements (mapcar (if (archive-row-section-p name)
+     :statements (mapcar (if (archive-row-parser name)
                              (lambda (row) (make-archive-statement :value row))
                              #'archive-list-statement)
                          (archive-list-items name (third equation))))))
@@ -192,7 +189,7 @@ header, or nil."
   (let ((top '()) (system '()) (groups '()))
     (dolist (equation (cdr list))
       (let ((name (archive-list-key equation)))
-        (cond ((or (archive-section-key-p name) (archive-row-section-p name))
+        (cond ((or (archive-section-key-p name) (archive-row-parser name))
                (push (archive-list-group equation) groups))
               ((member name (archive-top-keys) :test #'string=)
                (push (archive-list-statement equation) top))

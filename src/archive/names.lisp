@@ -7,10 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/types"))
-
-(defparameter *archive-row-value-field* 3
-  "Place of the value in a branch's fields: n1, n2, type, value.")
+  (core-require "archive/keys" "archive/types" "archive/circuit"))
 
 (defun archive-lefts (equations) (mapcar #'second (cdr equations)))
 
@@ -54,66 +51,22 @@
     (:states (append (archive-lefts value) (archive-rights value)))
     (:laws (mapcar #'caar (archive-lefts value)))
     (:spin (cddr value))
+    (:algebra (mapcar #'core-symbol '("M1" "M2" "M3" "g1" "g2" "g3")))
     (t '())))
 
 (defun archive-momentum-names (description)
-  "Names p_q that momenta have unless the user names them, and names of what the kind itself
-brings."
+  "Names p_q that momenta have unless the user names them."
   (append (mapcar (lambda (q) (core-symbol (format nil "p_~a" (core-spelling q))))
                   (remove-if-not #'archive-symbol-p
                                  (cdr ($core_get description '$coordinates nil))))
           (archive-used-names (archive-list (archive-rights ($core_get description '$momenta
-                                                                       nil))))
-          (when ($core_get description '$algebra nil)
-            (mapcar #'core-symbol '("M1" "M2" "M3" "g1" "g2" "g3")))))
+                                                                       nil))))))
 
 (defun archive-rotor-angles (description)
   "The angles of bodies with a rotor: names that are no coordinates."
   (loop for equation in (cdr description)
         when (and (stringp (second equation)) ($core_get (third equation) '$rotor nil))
           append (archive-used-names ($core_get (third equation) '$angles '((mlist))))))
-
-;; Circuits: labels and states
-
-(defun archive-row-fields (row)
-  (cdr (if (archive-equation-p row) (third row) row)))
-
-(defun archive-row-labels (row)
-  "What the branch may be called by: its label, or its value when that is a name."
-  (remove-if-not #'archive-symbol-p
-                 (list (if (archive-equation-p row)
-                           (second row)
-                           (nth *archive-row-value-field* (archive-row-fields row))))))
-
-(defun archive-row-states (row)
-  "The state that the row names, and the names it would have by default."
-  (append (remove-if-not #'archive-symbol-p
-                         (nthcdr (1+ *archive-row-value-field*) (archive-row-fields row)))
-          (loop for label in (archive-row-labels row)
-                append (list (core-symbol (format nil "i_~a" (core-spelling label)))
-                             (core-symbol (format nil "u_~a" (core-spelling label)))))))
-
-(defun archive-branch-value (row)
-  "The value of a branch, in a list; nil where it has none."
-  (let ((fields (nthcdr *archive-row-value-field* (archive-row-fields row))))
-    (and fields (list (first fields)))))
-
-(defun archive-branch-names (description)
-  "Two values: names that the branches declare, and names that their values use."
-  (let ((rows (cdr ($core_get description '$branches '((mlist))))))
-    (values (append (mapcan #'archive-row-states rows)
-                    (loop for row in rows when (archive-equation-p row) collect (second row)))
-            (archive-used-names
-             (archive-list (append (mapcan #'archive-branch-value rows)
-                                   (archive-last-fields ($core_get description '$couplings nil))
-                                   (archive-last-fields
-                                    ($core_get description '$transformers nil))))))))
-
-(defun archive-last-fields (rows)
-  "The values of couplings and transformers: M, the right side of k = 0.9, the ratio."
-  (loop for row in (cdr rows)
-        for value = (car (last (archive-row-fields row)))
-        collect (if (archive-equation-p value) (third value) value)))
 
 ;; All names
 
@@ -147,12 +100,6 @@ brings."
   (remove-if-not #'archive-relation-p (cdr ($core_get description '$parameters '((mlist))))))
 
 ;; Names of what moves: they are no parameters and have no fixed value
-
-(defun archive-row-own-state (row)
-  "The state that the row of an inductor or a capacitor names, in a list."
-  (let ((fields (archive-row-fields row)))
-    (and (member (third fields) '(|$l| |$c|))
-         (remove-if-not #'archive-symbol-p (nthcdr (1+ *archive-row-value-field*) fields)))))
 
 (defun archive-moving-names (description)
   "((name . what it is) ..)"
@@ -209,6 +156,9 @@ open."
 
 (defun archive-check-coordinates (description)
   "A coordinate that occurs nowhere in what the equations are made of has the equation 0 = 0."
+  (when ($core_get description '$lagrangian nil) (archive-check-occurring description)))
+
+(defun archive-check-occurring (description)
   (let* ((used (loop for key in '($lagrangian $rayleigh $forces $constraints $nonholonomic)
                      append (archive-names-in ($core_get description key 0))))
          (coordinates (cdr ($core_get description '$coordinates)))
@@ -222,6 +172,7 @@ open."
                         (mapcar #'core-spelling absent))))))
 
 (defun archive-check-agreement (kind description)
+  "An error where the keys of DESCRIPTION, of KIND, contradict each other."
   (archive-check-parameters description)
-  (cond ((string= kind "equations") (archive-check-equations description))
-        (($core_get description '$lagrangian nil) (archive-check-coordinates description))))
+  (let ((agreement (core-kind-agreement (core-find-kind kind))))
+    (when agreement (core-call agreement description))))

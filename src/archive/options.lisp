@@ -19,20 +19,28 @@
                           `off' and `verbose' are false; the option verbose is true or false)~]"
                          (core-words (list equation)) (member left '(nil t)))))))
 
+(defparameter *archive-option-phrases*
+  '((:truth . "true or false")
+    (:seconds . "a number of seconds, 0 for no limit")
+    (:factor . "a number from 1 to 100: how many times the usual limits of size hold")
+    (:file . "a file name in double quotes"))
+  "What a value of each type of option is.")
+
 (defun archive-option-fits (type value)
-  (ecase type
+  "Whether VALUE is of TYPE, as core-option states it."
+  (case type
     (:truth (member value '(nil t)))
     (:seconds (and (mnump value) (not (mnegp value))))
     (:factor (and (mnump value) (not (mnegp (sub value 1))) (not (mnegp (sub 100 value)))))
-    (:form (member value '($auto $canonical $factored $program)))
-    (:function (member value '($lagrange $routh $hamilton)))
-    (:file (stringp value))))
+    (:file (stringp value))
+    (t (member value (mapcar #'core-symbol type)))))
 
 (defun archive-check-option (option value)
-  (let ((row (find-if (lambda (row) (member option (cddr row) :test #'string=))
-                      *archive-option-types*)))
-    (unless (or (null row) (archive-option-fits (first row) value))
-      (core-error "the option ~a is ~a, found ~a" option (second row) (core-words (list value))))))
+  (let ((type (gethash option *core-options*)))
+    (unless (or (null type) (archive-option-fits type value))
+      (core-error "the option ~a is ~a, found ~a" option
+                  (if (consp type) (core-choice type) (cdr (assoc type *archive-option-phrases*)))
+                  (core-words (list value))))))
 
 (defun archive-check-program-form (call)
   "An error unless there is a program of what is called."
@@ -162,7 +170,7 @@ neglected in a field."
   "Whether NAME is an option of the function in other calls, or a key of [system]."
   (member name (append (core-public-options (archive-call-public call))
                        *archive-common-options* '("form" "result")
-                       (loop for kind in *archive-kinds*
+                       (loop for kind in (core-kind-names)
                              append (archive-overrulable-keys kind)))
           :test #'string=))
 

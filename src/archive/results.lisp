@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/check" "archive/store"))
+  (core-require "archive/open" "archive/store"))
 
 (defparameter *archive-result-width* 96)
 

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The rows of a circuit's sections: fields apart by blanks, where a blank inside brackets or a
 ;;; string parts nothing. What parses a row takes a reader on its first token and gives a Maxima
-;;; list, or label = list. Look first at *archive-row-sections*.
+;;; list, or label = list.
 ;;;   branches      [label:] node -> node  type  value  [state]
 ;;;   couplings     label label  M  or  label label  k = number
 ;;;   transformers  node -> node : node -> node  ratio value
@@ -9,12 +9,12 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/tokens" "archive/parser"))
+  (core-require "archive/keys" "archive/tokens" "archive/parser"))
 
-(defparameter *archive-row-sections*
-  '(("branches" . archive-parse-branch) ("couplings" . archive-parse-coupling)
-    ("transformers" . archive-parse-transformer))
-  "Sections whose entries are rows, and what parses a row.")
+(defun archive-row-parser (section)
+  "What parses the rows of SECTION, of whatever kind; nil where its entries are keys."
+  (let ((sort (archive-find-sort nil section)))
+    (and sort (eq (archive-sort-form sort) :rows) (archive-sort-detail sort))))
 
 ;; Fields
 

@@ -107,7 +107,7 @@ the next one begins."
 
 (defun archive-entry-of-line (sheet section line)
   "The entry that begins in LINE of SECTION; more lines may follow."
-  (if (assoc (section-name section) *archive-row-sections* :test #'string=)
+  (if (archive-row-parser (section-name section))
       (archive-row-of-line sheet line)
       (archive-key-of-line sheet line)))
 
@@ -214,7 +214,7 @@ the next one begins."
 (defun archive-parse-sections (sheet)
   (dolist (section (sheet-sections sheet))
     (unless (archive-result-section-p section)
-      (let ((row (cdr (assoc (section-name section) *archive-row-sections* :test #'string=))))
+      (let ((row (archive-row-parser (section-name section))))
         (dolist (entry (section-entries section))
           (if row
               (archive-parse-row entry row)

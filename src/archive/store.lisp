@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/check" "archive/disk" "archive/slots"))
+  (core-require "archive/open" "archive/disk" "archive/slots"))
 
 (defparameter *archive-write-tries* 20
   "How often a write begins anew when another process wrote in between.")

@@ -7,15 +7,13 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/nearest"))
+  (core-require "core/nearest" "archive/register"))
 
 (defparameter *archive-version* 1)
 
-(defparameter *archive-kinds* '("mechanical" "lagrangian" "circuit" "equations" "poisson"))
-
 (defparameter *archive-types*
-  '((:version archive-as-version "1")
-    (:kind archive-as-kind "mechanical, lagrangian, circuit, equations or poisson")
+  `((:version archive-as-version "1")
+    (:kind archive-as-kind ,(core-choice (core-kind-names)))
     (:text archive-as-text "a text in double quotes")
     (:count archive-as-count "a positive integer")
     (:names archive-as-names "a list of names, such as [phi, theta]")
@@ -170,7 +168,7 @@ sixty letters."
           (near (archive-unfit "did you mean ~a?" near))
           (t (archive-unfit)))))
 
-(defun archive-as-kind (value) (archive-one-of value *archive-kinds*))
+(defun archive-as-kind (value) (archive-one-of value (core-kind-names)))
 
 (defun archive-as-field (value) (archive-one-of value '("none" "constant" "newton")))
 
@@ -327,27 +325,3 @@ those who compute with it."
         (t (archive-a-name value))))
 
 (defun archive-as-facts (value) (archive-each #'archive-a-fact value))
-
-;; The list of a graph
-
-(defparameter *archive-graph-types*
-  '((#\L . "L") (#\C . "C") (#\R . "R") (#\E . "E") (#\I . "I")
-    (#\f . "RU") (#\g . "RU") (#\h . "RI"))
-  "Type of a branch by the first letter of its value.")
-
-(defun archive-graph-row (branch)
-  "The row [n1, n2, type, value(, state)] of {{n1, n2}, value(, state)}."
-  (let* ((items (archive-items branch))
-         (nodes (if (<= 2 (length items) 3) (archive-items (first items)) '()))
-         (value (second items))
-         (type (and (archive-symbol-p value)
-                    (cdr (assoc (char (core-spelling value) 0) *archive-graph-types*)))))
-    (unless (= (length nodes) 2)
-      (archive-unfit "~a is not {{node, node}, value}" (archive-value-shown branch)))
-    (unless type
-      (archive-unfit "~a does not begin with L, C, R, E, I, f, g or h"
-                     (archive-value-shown value)))
-    (archive-list (append (mapcar #'archive-as-node nodes) (list (core-symbol type) value)
-                          (mapcar #'archive-a-name (cddr items))))))
-
-(defun archive-as-graph (value) (archive-each #'archive-graph-row value))

@@ -20,6 +20,7 @@
 (core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
   "network" "own_parts")
 
+(core-option :truth "solved" "matrices")
 (core-public "StateEquations"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
   :options '("solved" "matrices") :kinds '("circuit"))

@@ -28,6 +28,10 @@
   "TEXT, cut after sixty letters."
   (if (> (length text) 60) (concatenate 'string (subseq text 0 57) "...") text))
 
+(defun core-choice (words)
+  "\"a, b or c\""
+  (format nil "~{~a~^, ~}~:[~; or ~]~a" (butlast words) (cdr words) (car (last words))))
+
 (defun core-named (text)
   "TEXT after the name of the function that runs."
   (if *core-function* (concatenate 'string *core-function* ": " text) text))

@@ -2,7 +2,8 @@
 ;;; The register of who can compute what. A QUANTITY has a name: a public function ("Lagrangian")
 ;;; or a key ("coordinates"). A RULE says how a quantity of a kind of archive comes about: a pure
 ;;; function of a part applied to other quantities, a key of the description, or a part of a
-;;; record. Each room states its rules as data in register.lisp; the dispatcher follows them.
+;;; record. A KIND is a kind of archive: its sections and keys, and the quantities that it has. Each
+;;; room states its own as data in register.lisp; the dispatcher follows them.
 
 (in-package :maxima)
 
@@ -26,6 +27,17 @@
   (setf (gethash name *core-publics*)
         (make-core-public :name name :forms forms :trailing trailing :options options :kinds kinds
                           :numerical numerical)))
+
+;;; Options
+
+(defvar *core-options* (make-hash-table :test #'equal) "Name -> the type of its value.")
+
+(defun core-option (type &rest names)
+  "States what the value of the options NAMES is: :truth, :seconds, :factor, :file, or one of the
+words in the list TYPE. Values of other options are looked at where they are used."
+  (dolist (name names) (setf (gethash name *core-options*) type)))
+
+;;; Rules
 
 (defun core-same-case-p (rule other)
   (and (equal (rule-kinds rule) (rule-kinds other)) (equal (rule-given rule) (rule-given other))))
@@ -60,6 +72,50 @@ name), where the archive's result NAME was edited by hand."
   "NAME is the part FIELD of the quantity RECORD."
   (core-add-rule name (make-core-rule :kinds kinds :record record :field field)))
 
+;;; Kinds of archive
+
+(defvar *core-kinds* '() "The core-kind records, in the order in which they are named.")
+
+(defstruct core-kind
+  name
+  about      ; what such an archive describes
+  first      ; rows of the keys of [system] that stand before those of all kinds
+  keys       ; rows of its other keys of [system]
+  sections   ; its other sections: ((word form meaning detail) row ..)
+  instead    ; the key of [system] that may stand instead of the sections of rows, or nil
+  completed  ; part and function that make of [system] and the other sections what they imply
+  agreement  ; part and function that look whether the keys of a description agree
+  gives)     ; the quantities that it has
+
+(defun core-kind (name about &key first keys sections instead completed agreement gives)
+  "States a kind of archive. GIVES are quantities that it has: a name, for which a rule is stated,
+or (name other), the quantity or key OTHER under that name. Rows: see src/archive/keys.lisp."
+  (loop for item in gives
+        when (consp item) do (core-rule-same-as (first item) (list name) (second item)))
+  (setq *core-kinds*
+        (append (remove name *core-kinds* :key #'core-kind-name :test #'string=)
+                (list (make-core-kind :name name :about about :first first :keys keys
+                                      :sections sections :instead instead :completed completed
+                                      :agreement agreement
+                                      :gives (mapcar (lambda (item) (if (consp item) (car item) item))
+                                                     gives))))))
+
+(defun core-call (place &rest arguments)
+  "The value of the function of PLACE = (part function), its part loaded."
+  (core-require (first place))
+  (apply (second place) arguments))
+
+(defun core-find-kind (name) (find name *core-kinds* :key #'core-kind-name :test #'equal))
+
+(defun core-kind-names () (mapcar #'core-kind-name *core-kinds*))
+
+(defun core-kinds-giving (quantity)
+  "Names of the kinds of archive that have QUANTITY."
+  (loop for kind in *core-kinds*
+        when (member quantity (core-kind-gives kind) :test #'string=) collect (core-kind-name kind)))
+
+;;; Names
+
 (defun core-read-symbol (symbol)
   "SYMBOL as Maxima's own reader gives it: gamma, zeta and lambda are %gamma, %zeta and lambda
 without $ inside."
@@ -74,6 +130,8 @@ without $ inside."
   "How a person spells SYMBOL."
   (let ((name (maybe-invert-string-case (string (or (get symbol 'reversealias) symbol)))))
     (if (and (plusp (length name)) (char= (char name 0) #\$)) (subseq name 1) name)))
+
+;;; The rule that serves
 
 (defun core-rule-fits (rule kind given)
   "Whether RULE serves an archive of KIND; GIVEN tells whether the rule's condition holds, one of

@@ -4,7 +4,9 @@
 
 (in-package :maxima)
 
-(defparameter *forms-kinds* '("mechanical" "lagrangian" "circuit"))
+(defparameter *forms-kinds* (core-kinds-giving "Lagrangian"))
+
+(core-option :truth "simplify" "expanded" "eliminate" "solved")
 
 (core-fact-judge "algebra/facts" 'algebra-name-signs)
 
@@ -26,8 +28,6 @@
 (core-rule "AtMotion" :any "forms/motion" "forms_at_motion" "expression" "motion")
 
 ;;; Lagrange
-
-(core-rule-same-as "Lagrangian" '("lagrangian") "lagrangian")
 
 (core-public "LagrangeEquations"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))

@@ -1,0 +1,115 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What an archive says of a circuit: the list of a graph as rows of branches, and the names that
+;;; rows declare and use: labels, states, and the values of branches. A branch is [n1, n2, type,
+;;; value] with the name of its state behind, or label = this list.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/types" "archive/groups"))
+
+;;; The list of a graph
+
+(defparameter *archive-graph-types*
+  '((#\L . "L") (#\C . "C") (#\R . "R") (#\E . "E") (#\I . "I")
+    (#\f . "RU") (#\g . "RU") (#\h . "RI"))
+  "Type of a branch by the first letter of its value.")
+
+(defun archive-graph-row (branch)
+  "The row [n1, n2, type, value(, state)] of {{n1, n2}, value(, state)}."
+  (let* ((items (archive-items branch))
+         (nodes (if (<= 2 (length items) 3) (archive-items (first items)) '()))
+         (value (second items))
+         (type (and (archive-symbol-p value)
+                    (cdr (assoc (char (core-spelling value) 0) *archive-graph-types*)))))
+    (unless (= (length nodes) 2)
+      (archive-unfit "~a is not {{node, node}, value}" (archive-value-shown branch)))
+    (unless type
+      (archive-unfit "~a does not begin with L, C, R, E, I, f, g or h"
+                     (archive-value-shown value)))
+    (archive-list (append (mapcar #'archive-as-node nodes) (list (core-symbol type) value)
+                          (mapcar #'archive-a-name (cddr items))))))
+
+(defun archive-as-graph (value) (archive-each #'archive-graph-row value))
+
+(defun archive-graph-group (rows)
+  "The branches of a graph as a group."
+  (make-archive-group :section "branches"
+                      :statements (mapcar (lambda (row) (make-archive-statement :value row))
+                                          (cdr rows))))
+
+(defun archive-without-graph (equations sign-given)
+  "The equations of [system] with `graph' taken out; it implies sign = generator."
+  (loop for equation in equations
+        unless (eq (second equation) '$graph)
+          collect (if (and (eq (second equation) '$sign) (not sign-given))
+                      (archive-equation '$sign '$generator)
+                      equation)))
+
+(defun archive-circuit-completed (system groups)
+  "Two values: the equations of SYSTEM without graph, and GROUPS with the branches, whether these
+stand in [branches] or in graph."
+  (let ((graph (find '$graph system :key #'second))
+        (branches (archive-find-group groups "branches"))
+        (given (archive-find-group groups "system")))
+    (cond ((and graph branches)
+           (core-fault "system" "graph"
+                       "the branches stand twice, in graph and in [branches]; leave one of them ~
+                        out"))
+          (graph (values (archive-without-graph system
+                                                (and (archive-find-statement given "sign") t))
+                         (cons (archive-graph-group (third graph)) groups)))
+          (branches (values system groups))
+          (t (core-fault "system" nil
+                         "a circuit has branches; add a section [branches], or the key graph")))))
+
+;;; Names
+
+(defparameter *archive-row-value-field* 3
+  "Place of the value in a branch's fields: n1, n2, type, value.")
+
+(defun archive-row-fields (row)
+  (cdr (if (archive-equation-p row) (third row) row)))
+
+(defun archive-row-labels (row)
+  "What the branch may be called by: its label, or its value when that is a name."
+  (remove-if-not #'archive-symbol-p
+                 (list (if (archive-equation-p row)
+                           (second row)
+                           (nth *archive-row-value-field* (archive-row-fields row))))))
+
+(defun archive-row-states (row)
+  "The state that the row names, and the names it would have by default."
+  (append (remove-if-not #'archive-symbol-p
+                         (nthcdr (1+ *archive-row-value-field*) (archive-row-fields row)))
+          (loop for label in (archive-row-labels row)
+                append (list (core-symbol (format nil "i_~a" (core-spelling label)))
+                             (core-symbol (format nil "u_~a" (core-spelling label)))))))
+
+(defun archive-branch-value (row)
+  "The value of a branch, in a list; nil where it has none."
+  (let ((fields (nthcdr *archive-row-value-field* (archive-row-fields row))))
+    (and fields (list (first fields)))))
+
+(defun archive-branch-names (description)
+  "Two values: names that the branches declare, and names that their values use."
+  (let ((rows (cdr ($core_get description '$branches '((mlist))))))
+    (values (append (mapcan #'archive-row-states rows)
+                    (loop for row in rows when (archive-equation-p row) collect (second row)))
+            (archive-used-names
+             (archive-list (append (mapcan #'archive-branch-value rows)
+                                   (archive-last-fields ($core_get description '$couplings nil))
+                                   (archive-last-fields
+                                    ($core_get description '$transformers nil))))))))
+
+(defun archive-last-fields (rows)
+  "The values of couplings and transformers: M, the right side of k = 0.9, the ratio."
+  (loop for row in (cdr rows)
+        for value = (car (last (archive-row-fields row)))
+        collect (if (archive-equation-p value) (third value) value)))
+
+(defun archive-row-own-state (row)
+  "The state that the row of an inductor or a capacitor names, in a list."
+  (let ((fields (archive-row-fields row)))
+    (and (member (third fields) '(|$l| |$c|))
+         (remove-if-not #'archive-symbol-p (nthcdr (1+ *archive-row-value-field*) fields)))))
