@@ -8,13 +8,13 @@
 
 (defun test-list (items) (cons '(mlist simp) items))
 
-(defun $test_checked (list) (archive-description (archive-check-list (archive-keys-by-name list))))
+(defun $test_checked (list) (archive-description (archive-open-list (archive-keys-by-name list))))
 
 (defun $test_facts (list) (test-list (archive-facts ($test_checked list))))
 
 (defun $test_free (list)
   "The free symbols of a description list."
-  (let ((archive (archive-check-list list)))
+  (let ((archive (archive-open-list list)))
     (test-list (archive-free-symbols (archive-kind archive) (archive-description archive)))))
 
 (defun $test_nearest (name known) (core-nearest name (cdr known)))

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/open" "archive/results" "archive/contents"))
+  (core-require "archive/open" "archive/results" "archive/argument_checks"))
 
 (defstruct archive-call
   public archive kind
@@ -43,7 +43,7 @@
 
 (defun archive-open-system (system)
   "The archive of a path, as given or found by Maxima's file_search, or of a description list."
-  (cond ((not (stringp system)) (archive-check-list system))
+  (cond ((not (stringp system)) (archive-open-list system))
         ((core-existing-file system) (archive-open system))
         (t (archive-open-found system))))
 

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/decimals" "archive/sums" "archive/steps"
+  (core-require "archive/call" "archive/exact" "archive/steps"
                 "archive/options"))
 
 (defun archive-dispatch (name arguments)
@@ -69,6 +69,21 @@
     (when (and text *core-too-large* (archive-program-serves-p name arguments))
       (multiple-value-setq (value text) (archive-program-instead name arguments text)))
     (if text (merror "~A" text) value)))
+
+(defun archive-option-of (condition)
+  "The option that CONDITION, (name value), asks for, as an equation."
+  (list '(mequal) (core-symbol (first condition)) (second condition)))
+
+(defun archive-form-option-p (argument)
+  (and (archive-equation-p argument) (eq (cadr argument) (core-symbol "form"))))
+
+(defun archive-program-serves-p (name arguments)
+  "Whether NAME has a program too, and the form is left to us."
+  (and arguments
+       (member name (archive-program-names) :test #'string=)
+       (loop for argument in arguments
+             never (and (archive-form-option-p argument)
+                        (not (eq (caddr argument) '$auto))))))
 
 (defun archive-program-instead (name arguments text)
   "As core-caught: the program of what would be too long; TEXT, the first error, where there is

@@ -1,15 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The entrance to descriptions: a file, a text or a list becomes a checked archive; one answer
-;;; of the dialog and one option of a call are checked by the same table.
-;;; Look first at archive-open and archive-check-list.
+;;; Opening: a file, a text or a list becomes a checked archive; one answer of the dialog is checked
+;;; by the same table. Look first at archive-open and archive-open-list.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/description" "archive/names" "archive/sections" "archive/bytes"
-                "archive/simplify" "archive/contents"))
+                "archive/plain_simplifier" "archive/argument_checks"))
 
-(defun archive-check-groups (path text parts groups)
+(defun archive-of-groups (path text parts groups)
   "The archive made of GROUPS, with a warning on names that nothing declares."
   (archive-with-places
    path groups
@@ -26,15 +25,15 @@
   "The checked archive of TEXT, the content of the file PATH."
   (let ((sheet (archive-split text path)))
     (archive-check-calls sheet)
-    (archive-check-groups path text sheet (archive-groups-of-sheet sheet))))
+    (archive-of-groups path text sheet (archive-groups-of-sheet sheet))))
 
 (defun archive-open (path)
   "The checked archive in the file PATH."
   (archive-of-text path (archive-read-file path)))
 
-(defun archive-check-list (list)
+(defun archive-open-list (list)
   "The checked archive that a description list is; it has no file."
-  (archive-check-groups nil nil nil (archive-groups-of-list list)))
+  (archive-of-groups nil nil nil (archive-groups-of-list list)))
 
 ;;; One answer
 

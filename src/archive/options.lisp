@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/steps" "archive/arguments"))
+  (core-require "archive/call" "archive/steps" "archive/argument_types"))
 
 (defun archive-option-name (equation)
   (let ((left (cadr equation)))
@@ -50,21 +50,6 @@
     (unless (and rule (equal (rule-given rule) *archive-program-form*))
       (core-error "form = program is for ~{~a~^, ~}; this function has none"
                   (archive-program-names)))))
-
-(defun archive-option-of (condition)
-  "The option that CONDITION, (name value), asks for, as an equation."
-  (list '(mequal) (core-symbol (first condition)) (second condition)))
-
-(defun archive-form-option-p (argument)
-  (and (archive-equation-p argument) (eq (cadr argument) (core-symbol "form"))))
-
-(defun archive-program-serves-p (name arguments)
-  "Whether NAME has a program too, and the form is left to us."
-  (and arguments
-       (member name (archive-program-names) :test #'string=)
-       (loop for argument in arguments
-             never (and (archive-form-option-p argument)
-                        (not (eq (caddr argument) '$auto))))))
 
 (defun archive-program-names ()
   (sort (loop for name being the hash-keys of *core-rules* using (hash-value rules)
@@ -236,7 +221,7 @@ to the rule only."
 
 (defun archive-overruled (archive pairs)
   "ARCHIVE as if its [system] had the keys and values of PAIRS, checked like any other."
-  (let ((other (archive-check-groups
+  (let ((other (archive-of-groups
                 (archive-path archive) (archive-text archive) (archive-parts archive)
                 (mapcar (lambda (group)
                           (if (string= (archive-group-section group) "system")

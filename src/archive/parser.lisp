@@ -10,8 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/tokens" "archive/simplify" "archive/shapes" "archive/elements"
-                "archive/makers" "archive/meant"))
+  (core-require "archive/tokens" "archive/simplify" "archive/compounds"
+                "archive/function_spellings"))
 
 (defparameter *archive-open-functions* 1000 "The most functions that an archive may leave open.")
 

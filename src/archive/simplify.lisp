@@ -1,15 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Sums, products, powers and functions as Maxima simplifies them, for text that nobody vouches
-;;; for: no step may hang, exhaust the heap, ask, or depend on what the session assumes. Sizes
-;;; of numbers are predicted before Maxima computes them; the signs that Maxima's simplifier
-;;; looks for (for sqrt(x^2), (2*x)^a) are those of archive-plain-sign, which factors nothing.
-;;; What is too costly to simplify stays as written. Look first at archive-simplified and
-;;; archive-power.
+;;; for: no step may hang, exhaust the heap, ask, or depend on what the session assumes. Sizes of
+;;; numbers are predicted before Maxima computes them. What is too costly to simplify stays as
+;;; written. Look first at archive-sum, archive-product and archive-power.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/tokens" "archive/signs" "archive/order"))
+  (core-require "archive/tokens" "archive/plain_simplifier"))
 
 (defvar *archive-reader* nil
   "The reader whose text is being simplified, for the place of an error.")
@@ -27,38 +25,6 @@
 (defun archive-refuse (control &rest arguments)
   "An error at the expression being simplified."
   (apply #'archive-fault *archive-reader* *archive-position* control arguments))
-
-;; Maxima's simplifier with its own defaults and a plain judge of signs
-
-(defun archive-simplified (e)
-  "E, a form whose arguments are simplified, after Maxima's simplifier."
-  (simplifya e t))
-
-(defmacro archive-with-plain-simplifier (&body body)
-  "BODY, while Maxima simplifies with its default flags and judges signs by archive-plain-sign."
-  `(let (($simp t) ($numer nil) ($float nil) ($keepfloat nil) ($bftorat nil) ($radexpand t)
-         ($logexpand t) ($domain '$real) ($m1pbranch nil) ($%emode t) ($%enumer nil)
-         ($demoivre nil) ($exponentialize nil) ($halfangles nil) ($triginverses t) ($trigsign t)
-         ($%piargs t) ($%iargs t) ($negdistrib t) ($expop 0) ($expon 0) ($maxposex 1000)
-         ($maxnegex 1000) ($logsimp t) ($lognegint nil) ($numer_pbranch nil) ($logarc nil)
-         ($ratsimpexpons nil) ($listarith t) ($doallmxops t) ($ratprint nil) ($ratfac nil)
-         ($algebraic nil))
-     (archive-calling-plain-signs (lambda () ,@body))))
-
-(defun archive-calling-plain-signs (function)
-  "Calls FUNCTION while signs are those of archive-plain-sign, and nothing is known of names."
-  (let* ((names '($sign $csign $asksign kindp))
-         (functions (mapcar #'symbol-function names))
-         (kindp (symbol-function 'kindp)))
-    (unwind-protect
-         (progn
-           (dolist (name '($sign $csign $asksign))
-             (setf (symbol-function name) #'archive-plain-sign))
-           (setf (symbol-function 'kindp)
-                 (lambda (e property)
-                   (and (not (archive-users-name-p e)) (funcall kindp e property))))
-           (funcall function))
-      (loop for name in names for old in functions do (setf (symbol-function name) old)))))
 
 ;; Sizes
 

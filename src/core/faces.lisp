@@ -5,9 +5,6 @@
 
 (in-package :maxima)
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/help"))
-
 (defvar *core-dispatcher* nil
   "What answers a call: a function of a public name and the arguments. The dispatcher's part sets
 it.")
@@ -28,6 +25,22 @@ capture it.)"
             (core-require "archive/dispatch")
             (funcall *core-dispatcher* public arguments)))
     symbol))
+
+;;; Help: `? Lagrangian' answers from doc/dynarch.info by the index beside it, in the way of Maxima's
+;;; share packages. The index is read when the first package is loaded, the text when somebody asks.
+
+(defvar *core-help-installed* nil "Whether Maxima knows the index.")
+
+(defun core-help-index () (concatenate 'string *core-root* "doc/dynarch-index.lisp"))
+
+(defun core-help-install ()
+  "Makes the manual's entries known to `?'. Without them a package works all the same."
+  (unless *core-help-installed*
+    (setq *core-help-installed* t)
+    (let ((*read-base* 10) (*package* *package*))
+      (core-attempt (lambda () (load (core-pathname (core-help-index))))))))
+
+;;; A package
 
 (defun $core_face (face &rest names)
   "States a package: its name and the names of its public functions."

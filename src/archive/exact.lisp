@@ -1,14 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Decimals typed in a call. Mathematics is exact: a decimal of at most 15 digits is the fraction
-;;; that was typed, 0.3 is 3/10, which is said once, and so is 1/0.3, which Maxima divides. A number
-;;; that needs more digits comes from a rounding before the call, as 0.1+0.2-0.3 does, and is
-;;; refused. Start values, spans of time and the like may be any numbers. Look first at
-;;; archive-exact-decimals.
+;;; What is typed in a call made exact. A decimal of at most 15 digits is the fraction that was
+;;; typed, 0.3 is 3/10, which is said once, and so is 1/0.3, which Maxima divides. A number that
+;;; needs more digits comes from a rounding before the call, as 0.1+0.2-0.3 does, and is refused.
+;;; Start values, spans of time and the like may be any numbers. Sums and products over whole numbers
+;;; are written out. Look first at archive-exact-decimals and archive-sums-written-out.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/simplify" "archive/speller"))
+  (core-require "archive/plain_simplifier" "archive/simplify" "archive/speller"))
 
 (defparameter *archive-exact-digits* 15 "Digits that a double keeps of every decimal.")
 (defparameter *archive-inverse-digits* 8
@@ -124,3 +124,33 @@
          (exact (archive-with-plain-simplifier (mapcar #'archive-without-decimals arguments))))
     (when *archive-decimals* (archive-say-decimals (reverse *archive-decimals*)))
     exact))
+
+;;; Sums and products as nouns, 'sum(x^k, k, 1, 3). One without a definite number of terms would be
+;;; taken for an open function of its parts: archive/argument_checks refuses it.
+
+(defparameter *archive-most-terms* 10000 "The most terms of a sum that is written out.")
+
+(defun archive-definite-sum-p (e)
+  "Whether E is a sum or product over a name between whole numbers."
+  (and (archive-head-p e '%sum '%product)
+       (archive-symbol-p (third e))
+       (integerp (fourth e))
+       (integerp (fifth e))))
+
+(defun archive-written-out (e)
+  "E with its definite sums and products carried out, from the inside."
+  (cond ((not (or (archive-contains-p e '%sum) (archive-contains-p e '%product))) e)
+        ((archive-definite-sum-p e) (archive-sum-written-out e))
+        (t (archive-with-parts e (mapcar #'archive-written-out (cdr e))))))
+
+(defun archive-sum-written-out (e)
+  (destructuring-bind (body index first last) (cdr e)
+    (core-within-size (1+ (- last first)) *archive-most-terms* (core-words (list e)) "terms")
+    (loop with body = (archive-written-out body)
+          for k from first to last
+          collect (archive-written-out (maxima-substitute k index body)) into terms
+          finally (return (if (eq (caar e) '%sum) (addn terms nil) (muln terms nil))))))
+
+(defun archive-sums-written-out (arguments)
+  "ARGUMENTS of a call with their definite sums and products carried out."
+  (archive-with-plain-simplifier (mapcar #'archive-written-out arguments)))

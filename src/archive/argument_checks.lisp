@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/arguments" "archive/meant"))
+  (core-require "archive/argument_types" "archive/function_spellings"))
 
 (defun archive-map-parts (function value)
   "Calls FUNCTION on VALUE and all its parts."
