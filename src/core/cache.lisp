@@ -8,6 +8,8 @@
 (in-package :maxima)
 
 (defvar *core-room-keys* (make-hash-table :test #'equal) "Room -> digest of its Lisp sources.")
+(defvar *core-part-keys* (make-hash-table :test #'equal)
+  "Room -> digest of the sources of all rooms that it may use, its own too.")
 (defvar *core-cache* :unknown "Folder of compiled files that can be trusted, or nil.")
 
 (defun core-say-uncached (control &rest arguments)
@@ -140,12 +142,17 @@ his own."
 ;;; How they are called
 
 (defun core-digest-file (name key)
-  "KEY carried on over the lines of the file NAME."
-  (with-open-file (in (core-pathname name))
-    (loop for line = (read-line in nil) while line
-          do (setq key (logand #xfffffffffffffff (+ (* 31 key) (sxhash line) 7))))
-    key))
-#+sbcl (compile 'core-digest-file) ; fifteen thousand lines pass through it
+  "KEY carried on over the text of the file NAME."
+  (flet ((carried (key text) (logand #xfffffffffffffff (+ (* 31 key) (sxhash text) 7))))
+    #+sbcl ; one call of Lisp's own for the whole text: nothing here is compiled at this point
+    (with-open-file (in (core-pathname name) :external-format :latin-1)
+      (let ((text (make-string (file-length in))))
+        (read-sequence text in)
+        (carried key text)))
+    #-sbcl ; elsewhere only the first letters of a long text may count
+    (with-open-file (in (core-pathname name))
+      (loop for line = (read-line in nil) while line do (setq key (carried key line)))
+      key)))
 
 (defun core-room-files (room)
   (sort (mapcar #'namestring
@@ -162,9 +169,11 @@ his own."
 
 (defun core-part-key (room)
   "A digest of all Lisp text that a part of ROOM may be built from."
-  (let ((key 17))
-    (dolist (name (core-rooms-used room) key)
-      (setq key (logand #xfffffffffffffff (+ (* 131 key) (core-room-key name)))))))
+  (or (gethash room *core-part-keys*)
+      (let ((key 17))
+        (dolist (name (core-rooms-used room))
+          (setq key (logand #xfffffffffffffff (+ (* 131 key) (core-room-key name)))))
+        (setf (gethash room *core-part-keys*) key))))
 
 (defun core-compiled-name (part folder)
   (format nil "~a~a-~36r.~a" folder (substitute #\- #\/ part)
