@@ -84,7 +84,7 @@
 (defun $register_texts_loaded ()
   "Maxima files of the parts that use a function of the share package stringproc."
   (cons '(mlist simp)
-        (loop for room in '("forms" "linmodel" "circuits" "analysis")
+        (loop for (room) in *core-rooms*
               append (loop for file in (directory (merge-pathnames "*.mac" (core-pathname (format nil "~asrc/~a/" *core-root* room))))
                            when (some (lambda (line)
                                         (some (lambda (word) (search word line))

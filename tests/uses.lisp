@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Which part uses which: names that a file under src defines and another one has. What a part uses
 ;;; it declares (core_require anywhere in its text; the core is always there), and its room may use
-;;; the other's by the table of rooms. Names are compared as Maxima spells them: $name of Lisp is
-;;; name of Maxima, name of Lisp is ?name. Look first at $uses_undeclared.
+;;; the other's by the table of rooms. What nothing uses is dead. Names are compared as Maxima spells
+;;; them: $name of Lisp is name of Maxima, name of Lisp is ?name. Look first at $uses_undeclared.
 
 (in-package :maxima)
 
@@ -189,3 +189,77 @@
                unless (member (uses-room other) (core-rooms-used (uses-room (uses-part-name part)))
                               :test #'string=)
                  collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
+
+;;; What nothing uses. A piece is a form of Lisp, or the lines from one definition of Maxima to the
+;;; next: what a piece defines must stand in another one, as a name or as a text between quotes (so
+;;; rules name functions), in a rule, a face or a tool.
+
+(defstruct uses-piece defined used)
+
+(defun uses-texts (form)
+  (let ((texts '()))
+    (uses-map (lambda (atom) (when (stringp atom) (push atom texts))) form)
+    texts))
+
+(defun uses-made-names (form)
+  "Names that a structure makes whether they are wanted or not: all of a record of both languages,
+the maker, the copier and the test of others."
+  (case (car form)
+    (core-record (uses-record-names form))
+    (defstruct (let ((name (if (consp (second form)) (car (second form)) (second form))))
+                 (list (format nil "?make-~(~a~)" name) (format nil "?copy-~(~a~)" name)
+                       (format nil "?~(~a~)-p" name))))))
+
+(defun uses-lisp-pieces (file)
+  (loop for form in (uses-forms file)
+        collect (make-uses-piece
+                 :defined (set-difference (uses-lisp-definitions (list form))
+                                          (and (consp form) (uses-made-names form)) :test #'string=)
+                 :used (append (uses-lisp-names (list form)) (uses-texts form)))))
+
+(defun uses-mac-pieces (file)
+  (multiple-value-bind (plain quoted) (uses-plain (uses-text file))
+    (let ((pieces (list (make-uses-piece :used quoted))))
+      (dolist (line (uses-lines plain) pieces)
+        (let ((defined (uses-mac-definitions line)))
+          (when defined (push (make-uses-piece :defined defined) pieces))
+          (setf (uses-piece-used (car pieces))
+                (append (uses-words line) (uses-piece-used (car pieces)))))))))
+
+(defun uses-outside ()
+  "What faces and tools name, and the functions of rules, whose names may be made."
+  (flet ((words (file)
+           (let ((text (uses-text file)) (start 0))
+             (loop for end = (position-if-not (lambda (c) (or (alphanumericp c) (find c "_-*$"))) text
+                                              :start start)
+                   collect (string-left-trim "$" (subseq text start end))
+                   while end do (setq start (1+ end))))))
+    (append (loop for rules being the hash-values of *core-rules*
+                  append (loop for rule in rules
+                               when (rule-function rule) collect (core-spelling (rule-function rule))))
+            (loop for face in '("linmodel" "circuits" "analysis")
+                  append (words (format nil "~a~a.mac" *core-root* face)))
+            (loop for tool in (directory (format nil "~atools/*" *core-root*))
+                  when (pathname-name tool)
+                    append (loop for word in (words tool)
+                                 append (list word (format nil "?~a" word)))))))
+
+(defun $uses_dead (&rest doors)
+  "[[part, names], ..]: names that a part defines and nothing uses but itself; DOORS are left out."
+  (let ((users (make-hash-table :test #'equal)) (homes '()))
+    (flet ((note (piece name) (pushnew piece (gethash name users))))
+      (dolist (name (append doors (uses-outside))) (note :outside name))
+      (dolist (part (uses-parts))
+        (let ((file (uses-file part)))
+          (dolist (piece (if (search ".lisp" file) (uses-lisp-pieces file) (uses-mac-pieces file)))
+            (dolist (name (uses-piece-used piece)) (note piece name))
+            (push (cons part piece) homes)))))
+    (apply #'uses-list
+           (loop for part in (uses-parts)
+                 for dead = (loop for (home . piece) in homes
+                                  when (string= home part)
+                                    append (remove-if (lambda (name)
+                                                        (set-difference (gethash name users)
+                                                                        (list piece)))
+                                                      (uses-piece-defined piece)))
+                 when dead collect (uses-list part (apply #'uses-list (sort dead #'string<)))))))

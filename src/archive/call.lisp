@@ -57,7 +57,6 @@
 
 (defun archive-new-call (public archive kind)
   (let ((call (make-archive-call :public public :archive archive :kind kind)))
-    (setq *core-archive* archive)
     (when archive (setf (archive-call-facts call) (archive-facts (archive-description archive))))
     call))
 

@@ -1,36 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What an archive says of a circuit: the list of a graph as rows of branches, and the names that
-;;; rows declare and use: labels, states, and the values of branches. A branch is [n1, n2, type,
-;;; value] with the name of its state behind, or label = this list.
+;;; What an archive says of a circuit: its branches, from their section or from the list of a graph,
+;;; and the names that rows declare and use: labels, states, and the values of branches. A branch is
+;;; [n1, n2, type, value] with the name of its state behind, or label = this list.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/types" "archive/groups"))
 
-;;; The list of a graph
-
-(defparameter *archive-graph-types*
-  '((#\L . "L") (#\C . "C") (#\R . "R") (#\E . "E") (#\I . "I")
-    (#\f . "RU") (#\g . "RU") (#\h . "RI"))
-  "Type of a branch by the first letter of its value.")
-
-(defun archive-graph-row (branch)
-  "The row [n1, n2, type, value(, state)] of {{n1, n2}, value(, state)}."
-  (let* ((items (archive-items branch))
-         (nodes (if (<= 2 (length items) 3) (archive-items (first items)) '()))
-         (value (second items))
-         (type (and (archive-symbol-p value)
-                    (cdr (assoc (char (core-spelling value) 0) *archive-graph-types*)))))
-    (unless (= (length nodes) 2)
-      (archive-unfit "~a is not {{node, node}, value}" (archive-value-shown branch)))
-    (unless type
-      (archive-unfit "~a does not begin with L, C, R, E, I, f, g or h"
-                     (archive-value-shown value)))
-    (archive-list (append (mapcar #'archive-as-node nodes) (list (core-symbol type) value)
-                          (mapcar #'archive-a-name (cddr items))))))
-
-(defun archive-as-graph (value) (archive-each #'archive-graph-row value))
+;;; Branches that stand in a graph
 
 (defun archive-graph-group (rows)
   "The branches of a graph as a group."
@@ -90,17 +68,6 @@ stand in [branches] or in graph."
   "The value of a branch, in a list; nil where it has none."
   (let ((fields (nthcdr *archive-row-value-field* (archive-row-fields row))))
     (and fields (list (first fields)))))
-
-(defun archive-branch-names (description)
-  "Two values: names that the branches declare, and names that their values use."
-  (let ((rows (cdr ($core_get description '$branches '((mlist))))))
-    (values (append (mapcan #'archive-row-states rows)
-                    (loop for row in rows when (archive-equation-p row) collect (second row)))
-            (archive-used-names
-             (archive-list (append (mapcan #'archive-branch-value rows)
-                                   (archive-last-fields ($core_get description '$couplings nil))
-                                   (archive-last-fields
-                                    ($core_get description '$transformers nil))))))))
 
 (defun archive-last-fields (rows)
   "The values of couplings and transformers: M, the right side of k = 0.9, the ratio."

@@ -12,7 +12,7 @@
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
-  (let ((*core-function* name) (*core-archive* nil) (*core-place* nil) (*core-warnings* '())
+  (let ((*core-function* name) (*core-place* nil) (*core-warnings* '())
         (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
         (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*))
     (setq arguments (archive-arguments-taken arguments)

@@ -176,7 +176,11 @@ that is nil; or nil."
                      (third default))))))
 
 (defun archive-print-keys-table (stream)
-  "The table in markdown, a part for each section."
+  "The kinds and the table in markdown, a part for each section."
+  (format stream "| kind | describes |~%|---|---|~%")
+  (dolist (kind *core-kinds*)
+    (format stream "| `~a` | ~a |~%" (core-kind-name kind) (core-kind-about kind)))
+  (terpri stream)
   (dolist (sort (archive-all-sorts))
     (let ((rows (eq (archive-sort-form sort) :rows)) (meaning (archive-sort-meaning sort)))
       (format stream "### ~a~%~%~a~%~%"

@@ -70,6 +70,17 @@
 
 ;; All names
 
+(defun archive-branch-names (description)
+  "Two values: names that the branches declare, and names that their values use."
+  (let ((rows (cdr ($core_get description '$branches '((mlist))))))
+    (values (append (mapcan #'archive-row-states rows)
+                    (loop for row in rows when (archive-equation-p row) collect (second row)))
+            (archive-used-names
+             (archive-list (append (mapcan #'archive-branch-value rows)
+                                   (archive-last-fields ($core_get description '$couplings nil))
+                                   (archive-last-fields
+                                    ($core_get description '$transformers nil))))))))
+
 (defun archive-map-keys (function kind description)
   "The lists that FUNCTION(type, value) gives for every key of DESCRIPTION, joined."
   (flet ((section (word equations)

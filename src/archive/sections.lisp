@@ -21,10 +21,10 @@ without the last line end."
   (name "") (line 1) (start 0) (end 0) (entries '()))
 
 (defstruct (archive-entry (:conc-name entry-))
-  "KEY as text (nil for a row); LINE and COLUMN of the entry; characters START to END of the whole
-entry, FROM to TO of its value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed;
+  "KEY as text (nil for a row); LINE of the entry; characters START to END of the whole entry, FROM
+to TO of its value; VALUE-LINE and VALUE-COLUMN of the value; VALUE once it is parsed;
 CALLS, the open functions in it (name line column)."
-  (key nil) (line 1) (column 1) (start 0) (end 0) (from 0) (to 0) (value-line 1) (value-column 1)
+  (key nil) (line 1) (start 0) (end 0) (from 0) (to 0) (value-line 1) (value-column 1)
   (sheet nil)
   (value nil) (parsed nil) (calls '()))
 

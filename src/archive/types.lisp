@@ -1,8 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The types of the table of keys: one function for each turns a parsed value into the form that
-;;; the rooms receive, or refuses it. archive-typed is the entrance: the value, or what is wrong
-;;; with it. Values are Maxima expressions; what they mean together (lengths, parents, loops) is
-;;; left to the rooms.
+;;; the rooms receive, or refuses it. archive-typed is the entrance. Values are Maxima expressions;
+;;; what they mean together (lengths, parents, loops) is left to the rooms.
 
 (in-package :maxima)
 
@@ -325,3 +324,27 @@ those who compute with it."
         (t (archive-a-name value))))
 
 (defun archive-as-facts (value) (archive-each #'archive-a-fact value))
+
+;; The list of a graph
+
+(defparameter *archive-graph-types*
+  '((#\L . "L") (#\C . "C") (#\R . "R") (#\E . "E") (#\I . "I")
+    (#\f . "RU") (#\g . "RU") (#\h . "RI"))
+  "Type of a branch by the first letter of its value.")
+
+(defun archive-graph-row (branch)
+  "The row [n1, n2, type, value(, state)] of {{n1, n2}, value(, state)}."
+  (let* ((items (archive-items branch))
+         (nodes (if (<= 2 (length items) 3) (archive-items (first items)) '()))
+         (value (second items))
+         (type (and (archive-symbol-p value)
+                    (cdr (assoc (char (core-spelling value) 0) *archive-graph-types*)))))
+    (unless (= (length nodes) 2)
+      (archive-unfit "~a is not {{node, node}, value}" (archive-value-shown branch)))
+    (unless type
+      (archive-unfit "~a does not begin with L, C, R, E, I, f, g or h"
+                     (archive-value-shown value)))
+    (archive-list (append (mapcar #'archive-as-node nodes) (list (core-symbol type) value)
+                          (mapcar #'archive-a-name (cddr items))))))
+
+(defun archive-as-graph (value) (archive-each #'archive-graph-row value))

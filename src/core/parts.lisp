@@ -6,7 +6,6 @@
 
 (defvar *core-loaded* (make-hash-table :test #'equal)
   "Part -> names of the Maxima functions it defined, or t for Lisp.")
-(defvar *core-archive* nil "The archive a call works on, while it runs.")
 (defvar *core-loading* #'funcall "Calls a function that loads a part: the watch waits for it.")
 (defvar *core-reading* #'funcall
   "What calls a function that reads Maxima text, so that it is read under Maxima's own grammar.")
