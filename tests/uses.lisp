@@ -182,12 +182,21 @@
                           (member other (uses-part-declared part) :test #'string=))
                  collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
 
+(defun uses-may-p (room other) (member other (core-rooms-used room) :test #'string=))
+
+(defun $uses_closed_rooms ()
+  "\"never src/ROOM src/OTHER\" for each room and those of which it may use nothing."
+  (apply #'uses-list
+         (loop for (room) in *core-rooms*
+               append (loop for (other) in *core-rooms*
+                            unless (uses-may-p room other)
+                              collect (format nil "never src/~a src/~a" room other)))))
+
 (defun $uses_forbidden ()
   "[[part, other, names], ..]: a part uses one of a room that its own room may not use."
   (apply #'uses-list
          (loop for (part other names) in (uses-arrows)
-               unless (member (uses-room other) (core-rooms-used (uses-room (uses-part-name part)))
-                              :test #'string=)
+               unless (uses-may-p (uses-room (uses-part-name part)) (uses-room other))
                  collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
 
 ;;; What nothing uses. A piece is a form of Lisp, or the lines from one definition of Maxima to the
