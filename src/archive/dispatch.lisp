@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/exact" "archive/steps"
+  (core-require "archive/call" "archive/names" "archive/exact" "archive/steps"
                 "archive/options"))
 
 (defun archive-dispatch (name arguments)
@@ -160,12 +160,18 @@ none."
       (loop for value being the hash-values of (archive-call-given call)
             do (archive-map-parts #'note value))
       (when (archive-call-archive call)
-        (archive-map-parts #'note (archive-description (archive-call-archive call)))))
+        (dolist (entry (cdr (archive-description (archive-call-archive call))))
+          (unless (archive-word-entry-p entry) (archive-map-parts #'note entry)))))
     names))
+
+(defun archive-word-entry-p (entry)
+  "Whether the value of ENTRY is a word of ours, such as field = constant, and no name."
+  (member (cadr entry) '($kind $field $sign $algebra)))
 
 (defun archive-run (call)
   "The value of the call's target, computed in the guard; new steps are saved."
   (setq *core-names* (archive-call-names call))
+  (archive-refuse-property-words *core-names*)
   (core-guarded (archive-call-facts call)
                 (lambda ()
                   (let ((target (core-public-name (archive-call-public call))))

@@ -187,3 +187,18 @@ open."
   (archive-check-parameters description)
   (let ((agreement (core-kind-agreement (core-find-kind kind))))
     (when agreement (core-call agreement description))))
+
+;;; Properties of Maxima's data base
+
+(defparameter *archive-property-words*
+  '($integer $noninteger $even $odd $rational $irrational $real $imaginary $complex $analytic
+    $increasing $decreasing $oddfun $evenfun $posfun $constant $commutative $lassociative
+    $rassociative $symmetric $antisymmetric $integervalued)
+  "Names that Maxima takes for something that has the property of this name: (-1)^(2*integer) is 1.")
+
+(defun archive-refuse-property-words (names)
+  (let ((word (find-if (lambda (name) (member name *archive-property-words*)) names)))
+    (when word
+      (core-error "the name ~a is a property in Maxima's data base, which takes the name for ~
+                   something that has it; take another name"
+                  (core-spelling word)))))
