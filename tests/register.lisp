@@ -81,6 +81,22 @@
 (defun register-lines (name)
   (with-open-file (in (core-pathname name)) (loop for line = (read-line in nil) while line collect line)))
 
+(defun register-calls-p (word line)
+  "Whether LINE of Maxima calls the function WORD."
+  (let ((place (search (concatenate 'string word "(") line)))
+    (and place (or (zerop place)
+                   (not (or (alphanumericp (char line (1- place))) (find (char line (1- place)) "_%")))))))
+
+(defun $register_counting_sums ()
+  "Maxima files of the parts that call sum or product: these evaluate their terms twice, and take a
+name of the user that is that of the counter for the counter."
+  (cons '(mlist simp)
+        (loop for room in '("forms" "linmodel" "circuits" "analysis")
+              append (loop for file in (directory (merge-pathnames "*.mac" (core-pathname (format nil "~asrc/~a/" *core-root* room))))
+                           when (some (lambda (line) (or (register-calls-p "sum" line) (register-calls-p "product" line)))
+                                      (uses-lines (uses-plain (uses-text (namestring file)))))
+                             collect (pathname-name file)))))
+
 (defun $register_texts_loaded ()
   "Maxima files of the parts that use a function of the share package stringproc."
   (cons '(mlist simp)
