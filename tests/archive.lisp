@@ -97,7 +97,8 @@ an e with its accent."
 
 (defun test-results (names values from)
   (loop for name in (cdr names) for value in (cdr values)
-        collect (list name value :from from :checks '("by \"hand\"" "twice") :left-out '("nothing"))))
+        collect (make-archive-step :name name :value value :from from :checks '("by \"hand\"" "twice")
+                                   :left-out '("nothing"))))
 
 (defun $test_save (path names values from &optional elsewhere)
   "Saves results in the archive PATH, opened anew."

@@ -186,27 +186,35 @@ doubles."
   (archive-spell (substitute-if #\Space (lambda (c) (< (char-code c) 32))
                                 (format nil "~{~a~^; ~}" notes))))
 
-(defun archive-result-lines (name value &key from (options "") form checks left-out
-                                          abbreviations passed)
-  "The lines below the header of the result NAME, without the last line end."
-  (declare (ignore passed))
-  (let ((parts (archive-value-parts value (archive-numerical-p name))))
+(defstruct archive-step
+  "A result to be written: its NAME and VALUE, the digest FROM what it was computed, its OPTIONS as
+text, its FORM, CHECKS and LEFT-OUT as texts, ABBREVIATIONS it is written in; whether the call
+PASSED it only, on the way to another."
+  name value from (options "") form checks left-out abbreviations passed)
+
+(defun archive-result-lines (step)
+  "The lines of STEP below its header, without the last line end."
+  (let ((parts (archive-value-parts (archive-step-value step)
+                                    (archive-numerical-p (archive-step-name step))))
+        (options (archive-step-options step)) (checks (archive-step-checks step))
+        (left-out (archive-step-left-out step)) (abbreviations (archive-step-abbreviations step)))
     (format nil "from = ~a~%own = ~a~%~@[options = ~a~%~]~@[form = ~a~%~]~@[check = ~a~%~]~
                  ~@[left_out = ~a~%~]~@[abbreviations = ~a~%~]~{~a~^~%~}"
-            from (archive-own-digest parts)
+            (archive-step-from step) (archive-own-digest parts)
             (and (string/= options "") (archive-spell options))
-            form
+            (archive-step-form step)
             (and checks (archive-note-text checks))
             (and left-out (archive-note-text left-out))
             (and abbreviations (archive-spell (archive-list abbreviations)))
             (loop for (key . text) in parts collect (format nil "~a = ~a" key text)))))
 
-(defun archive-save (archive results &optional elsewhere)
-  "Writes RESULTS, a list of (name value . keys of archive-result-lines), into ARCHIVE's file or
-ELSEWHERE, at one stroke. True when done; else a warning, and the file is as it was."
+(defun archive-save (archive steps &optional elsewhere)
+  "Writes STEPS into ARCHIVE's file or ELSEWHERE, at one stroke. True when done; else a warning, and
+the file is as it was."
   (archive-save-results
    archive elsewhere
    (lambda ()
-     (loop for (name value . parts) in results
-           collect (list name :options (getf parts :options "") :passed (getf parts :passed)
-                         :lines (apply #'archive-result-lines name value parts))))))
+     (loop for step in steps
+           collect (list (archive-step-name step) :options (archive-step-options step)
+                         :passed (archive-step-passed step)
+                         :lines (archive-result-lines step))))))

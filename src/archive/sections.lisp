@@ -143,40 +143,50 @@ the next one begins."
 
 ;; The whole text
 
+(defun archive-begin-section (sheet line)
+  "The section whose header is LINE; of that name there is no other."
+  (let ((section (archive-section-of-header sheet line)))
+    (archive-check-section-name sheet section line (sheet-sections sheet))
+    (push section (sheet-sections sheet))))
+
+(defun archive-begin-entry (sheet section line)
+  (push (archive-entry-of-line sheet section line) (section-entries section))
+  (setf (section-end section) (line-end line)))
+
+(defun archive-take-line (sheet line content counts)
+  "Adds LINE, which has its CONTENT from that place on, to SHEET, whose sections and entries stand
+with the newest first; COUNTS are their numbers, (sections . entries)."
+  (let* ((section (car (sheet-sections sheet))) (entry (car (section-entries section))))
+    (cond ((and (> content (line-start line)) (null entry))
+           (archive-line-fault sheet line content
+                               "an indented line continues the entry above, but there is none; ~
+                                begin in column 1"))
+          ((> content (line-start line)) (archive-continue-entry entry section line))
+          ((char= (char (sheet-text sheet) content) #\[)
+           (archive-check-count sheet line (incf (car counts)) *archive-most-sections* "sections")
+           (archive-begin-section sheet line))
+          (t (archive-check-count sheet line (incf (cdr counts)) *archive-entries* "entries")
+             (archive-begin-entry sheet section line)))))
+
+(defun archive-split-lines (sheet)
+  "Fills SHEET from its text."
+  (let* ((text (sheet-text sheet)) (start (archive-text-start text)) (counts (cons 0 0)))
+    (push (make-archive-section :name "archive" :start start :end start) (sheet-sections sheet))
+    (loop for number from 1
+          while (< start (length text))
+          do (let* ((line (archive-line-at text start number))
+                    (content (archive-line-content text line)))
+               (when content (archive-take-line sheet line content counts))
+               (setq start (line-next line))))
+    (dolist (section (sheet-sections sheet))
+      (setf (section-entries section) (nreverse (section-entries section))))
+    (setf (sheet-sections sheet) (nreverse (sheet-sections sheet)))))
+
 (defun archive-split (text file &key (parse t))
   "The sheet of TEXT, which messages name by FILE. With PARSE nil no value is parsed."
   (let* ((text (archive-simple-text text))
-         (sheet (make-archive-sheet :text text :file file :newline (archive-line-end-of text)))
-         (section (make-archive-section :name "archive" :start (archive-text-start text) :end
-                                        (archive-text-start text)))
-         (sections (list section))
-         (entry nil) (start (archive-text-start text)) (number 1) (section-count 0) (entry-count 0))
-    (loop while (< start (length text))
-          do (let* ((line (archive-line-at text start number))
-                    (content (archive-line-content text line)))
-               (when content
-                 (cond ((> content start)
-                        (unless entry
-                          (archive-line-fault sheet line content
-                                              "an indented line continues the entry above, but ~
-                                               there is none; begin in column 1"))
-                        (archive-continue-entry entry section line))
-                       ((char= (char text content) #\[)
-                        (setq section (archive-section-of-header sheet line) entry nil)
-                        (archive-check-count sheet line (incf section-count)
-                                             *archive-most-sections* "sections")
-                        (archive-check-section-name sheet section line sections)
-                        (push section sections))
-                       (t
-                        (archive-check-count sheet line (incf entry-count) *archive-entries*
-                                             "entries")
-                        (setq entry (archive-entry-of-line sheet section line))
-                        (push entry (section-entries section))
-                        (setf (section-end section) (line-end line)))))
-               (setq start (line-next line))
-               (incf number)))
-    (dolist (each sections) (setf (section-entries each) (nreverse (section-entries each))))
-    (setf (sheet-sections sheet) (nreverse sections))
+         (sheet (make-archive-sheet :text text :file file :newline (archive-line-end-of text))))
+    (archive-split-lines sheet)
     (when parse (archive-parse-sheet sheet))
     sheet))
 

@@ -12,8 +12,6 @@
   keys     ; keys of [system] the quantity depends on; "*" is the whole structure
   extras)  ; arguments, options and hand-edited results it depends on, as text
 
-(defstruct archive-step name value from options form checks left-out abbreviations)
-
 (defparameter *archive-program-form* '("form" $program)
   "The condition of a rule that gives a program.")
 
@@ -295,6 +293,7 @@ where there is only one."
     (let* ((value (archive-derived-value derived)) (short (archive-abbreviated call value)))
       (push (make-archive-step
              :name name :value short :from (archive-digest-of call name)
+             :passed (string/= name (core-public-name (archive-call-public call)))
              :options (archive-options-of call name) :form form
              :checks (reverse (archive-derived-checks derived))
              :left-out (reverse (archive-derived-left-out derived))
@@ -308,17 +307,5 @@ where there is only one."
 (defun archive-save-steps (call)
   "Writes the sections of all steps computed in this call, unless save = false."
   (when (and (archive-call-new call) (archive-option call "save" (archive-save-default call)))
-    (archive-save (archive-call-archive call)
-                  (mapcar (lambda (step) (archive-step-result call step))
-                          (reverse (archive-call-new call)))
+    (archive-save (archive-call-archive call) (reverse (archive-call-new call))
                   (archive-option call "result" nil))))
-
-(defun archive-step-result (call step)
-  "STEP as archive-save takes it."
-  (list (archive-step-name step) (archive-step-value step)
-        :from (archive-step-from step) :options (archive-step-options step)
-        :form (archive-step-form step) :checks (archive-step-checks step)
-        :left-out (archive-step-left-out step)
-        :abbreviations (archive-step-abbreviations step)
-        :passed (string/= (archive-step-name step)
-                          (core-public-name (archive-call-public call)))))

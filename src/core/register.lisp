@@ -85,20 +85,17 @@ name), where the archive's result NAME was edited by hand."
   instead    ; the key of [system] that may stand instead of the sections of rows, or nil
   completed  ; part and function that make of [system] and the other sections what they imply
   agreement  ; part and function that look whether the keys of a description agree
-  gives)     ; the quantities that it has
+  gives)     ; the quantities that it has: names, or (name other)
 
-(defun core-kind (name about &key first keys sections instead completed agreement gives)
-  "States a kind of archive. GIVES are quantities that it has: a name, for which a rule is stated,
-or (name other), the quantity or key OTHER under that name. Rows: see src/archive/keys.lisp."
-  (loop for item in gives
-        when (consp item) do (core-rule-same-as (first item) (list name) (second item)))
-  (setq *core-kinds*
-        (append (remove name *core-kinds* :key #'core-kind-name :test #'string=)
-                (list (make-core-kind :name name :about about :first first :keys keys
-                                      :sections sections :instead instead :completed completed
-                                      :agreement agreement
-                                      :gives (mapcar (lambda (item) (if (consp item) (car item) item))
-                                                     gives))))))
+(defun core-kind (name about &rest parts)
+  "States a kind of archive; PARTS are keywords and values, the other fields of the record. Rows: see
+src/archive/keys.lisp. What it gives is a name, for which a rule is stated, or (name other), the
+quantity or key OTHER under that name."
+  (let ((kind (apply #'make-core-kind :name name :about about parts)))
+    (loop for item in (core-kind-gives kind)
+          when (consp item) do (core-rule-same-as (first item) (list name) (second item)))
+    (setq *core-kinds*
+          (append (remove name *core-kinds* :key #'core-kind-name :test #'string=) (list kind)))))
 
 (defun core-call (place &rest arguments)
   "The value of the function of PLACE = (part function), its part loaded."
@@ -112,7 +109,9 @@ or (name other), the quantity or key OTHER under that name. Rows: see src/archiv
 (defun core-kinds-giving (quantity)
   "Names of the kinds of archive that have QUANTITY."
   (loop for kind in *core-kinds*
-        when (member quantity (core-kind-gives kind) :test #'string=) collect (core-kind-name kind)))
+        when (find quantity (core-kind-gives kind)
+                   :test #'string= :key (lambda (item) (if (consp item) (first item) item)))
+          collect (core-kind-name kind)))
 
 ;;; Names
 
