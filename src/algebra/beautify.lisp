@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/contents"))
+  (core-require "algebra/normal"))
 
 (defun $algebra_beautify (e)
   (algebra-map-bags #'algebra-beautiful e))

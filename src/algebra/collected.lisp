@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/contents"))
+  (core-require "algebra/normal"))
 
 (defun $algebra_collected (e)
   "The canonical form of E, collected."
