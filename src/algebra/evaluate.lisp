@@ -35,7 +35,7 @@
       (setq product (algebra-times product factor)))))
 
 (defun algebra-power (base n)
-  (when (and (minusp n) (algebra-vanishes-p (car base)))
+  (when (and (minusp n) (algebra-zero-polynomial-p (car base)))
     (core-error "division by zero"))
   (algebra-guard-power (car base) n)
   (algebra-guard-power (cdr base) n)

@@ -40,7 +40,7 @@
            (cleared (loop for row in right
                           for d in denominators
                           collect (loop for b in row collect (algebra-times b (cons d 1))))))
-      (when (algebra-vanishes-p determinant)
+      (when (algebra-zero-polynomial-p determinant)
         (core-error "the matrix of linear equations is singular"))
       (cons '($matrix simp)
             (loop for j below (length rows)
@@ -146,18 +146,11 @@
 
 ;;; Elimination on general expressions, for systems of any shape.
 
-(defun algebra-surely-zero-p (e)
-  (or (eql e 0)
-      (case (algebra-zero-test e)
-        ((nil) nil)
-        ((t) t)
-        (t (core-undecided "it is not decided whether ~A vanishes" (algebra-short-text e))))))
-
 (defun algebra-echelon (rows columns)
   "Reduced echelon form of ROWS, pivots in the first COLUMNS only."
   (let ((done nil))
     (dotimes (column columns)
-      (let ((candidates (remove-if (lambda (row) (algebra-surely-zero-p (nth column row))) rows)))
+      (let ((candidates (remove-if (lambda (row) (algebra-decided-zero-p (nth column row))) rows)))
         (when candidates
           (let* ((pivot (algebra-least candidates
                                        (lambda (row) (algebra-size (nth column row)))))
@@ -206,12 +199,12 @@
     (sub (maxima-substitute 1 x others) (maxima-substitute 0 x others))))
 
 (defun algebra-contradiction-p (row)
-  (and (every #'algebra-surely-zero-p (butlast row))
-       (not (algebra-surely-zero-p (car (last row))))))
+  (and (every #'algebra-decided-zero-p (butlast row))
+       (not (algebra-decided-zero-p (car (last row))))))
 
 (defun algebra-solutions (rows xs)
   (let ((pivots (loop for row in rows
-                      for place = (position-if-not #'algebra-surely-zero-p (butlast row))
+                      for place = (position-if-not #'algebra-decided-zero-p (butlast row))
                       when place collect (cons place row))))
     (loop for x in xs
           for place from 0

@@ -124,7 +124,7 @@ ROW takes from a set of rows the one to expand by."
 
 (defun algebra-shortest-pivot (a k)
   (let ((rows (loop for i from k below (array-dimension a 0)
-                    unless (algebra-vanishes-p (aref a i k)) collect i)))
+                    unless (algebra-zero-polynomial-p (aref a i k)) collect i)))
     (if rows
         (algebra-least rows (lambda (i) (algebra-poly-size (aref a i k)))))))
 

@@ -9,7 +9,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/scan" "algebra/evaluate" "algebra/readable" "algebra/general"
-                "algebra/vanishing"))
+                "algebra/zero_polynomials"))
 
 (defun $algebra_normal (e)
   (algebra-map-bags #'algebra-normal-form e))

@@ -25,7 +25,7 @@
   (let* ((columns (length (car rows)))
          (echelon (algebra-echelon rows columns))
          (pivots (loop for row in echelon
-                       for place = (position-if-not #'algebra-surely-zero-p row)
+                       for place = (position-if-not #'algebra-decided-zero-p row)
                        when place collect (cons place row))))
     (loop for free below columns
           unless (assoc free pivots)

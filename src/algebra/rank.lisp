@@ -24,9 +24,7 @@
 
 (defun algebra-rank-matrix (m)
   "Its rows without denominators, in the ring at hand."
-  (let ((*algebra-exponential-form* t)
-        (*algebra-roots-apart* t)
-        (*algebra-every-multiple* t))
+  (with-algebra-zero-form
     (algebra-rectangle (mapcar (lambda (row) (nth-value 0 (algebra-common-denominator row)))
                                (algebra-matrix-quotients m)))))
 
@@ -36,11 +34,11 @@
     (unless (member i rows)
       (dotimes (j (array-dimension matrix 1))
         (unless (member j columns)
-          (unless (algebra-minor-vanishes-p matrix (cons i rows) (cons j columns))
+          (unless (algebra-minor-zero-p matrix (cons i rows) (cons j columns))
             (return-from algebra-border
               (algebra-border matrix (cons i rows) (cons j columns)))))))))
 
-(defun algebra-minor-vanishes-p (matrix rows columns)
+(defun algebra-minor-zero-p (matrix rows columns)
   (let ((minor (algebra-reduce
                 (algebra-determinant-polynomial
                  (algebra-rectangle
@@ -52,8 +50,7 @@
           (not-zero nil)
           (t (if (algebra-nonzero-somewhere-p (algebra-general (car minor)))
                  nil
-                 (core-undecided "it is not decided whether ~A vanishes"
-                                 (algebra-short-text (algebra-general (car minor))))))))))
+                 (algebra-zero-undecided (algebra-general (car minor)))))))))
 
 ;;; A point modulo a prime.
 

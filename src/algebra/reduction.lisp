@@ -137,5 +137,5 @@
       (loop for (exponent coefficient) on (cdr p) by #'cddr
             sum (+ (min exponent 2) (algebra-poly-size coefficient)))))
 
-(defun algebra-vanishes-p (p)
+(defun algebra-zero-polynomial-p (p)
   (pzerop (car (algebra-reduce p))))

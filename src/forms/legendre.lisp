@@ -130,7 +130,7 @@ of some three times its length."
                        (lambda (e factor x pivot same)
                          (sub e (div (if same (power factor 2) (mul factor x)) pivot)))
                        (lambda (y pivot)
-                         (when (eq t ($algebra_vanishes pivot))
+                         (when (eq t ($algebra_zero_at_samples pivot))
                            (core-error "the quadratic form in the momenta is long, and its ~
                                         elimination meets a zero; give numbers to parameters"))
                          (div (power y 2) (mul 2 pivot))))))
