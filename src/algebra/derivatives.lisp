@@ -9,10 +9,6 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/normal"))
 
-(defun $algebra_gradient (e xs)
-  "[de/dx, ..], normal."
-  (cons '(mlist simp) (car (algebra-jacobian (list e) (cdr xs)))))
-
 (defun $algebra_jacobian (es xs)
   "The matrix of de_i/dx_j, normal."
   (unless (and ($listp es) (cdr es) ($listp xs) (cdr xs))

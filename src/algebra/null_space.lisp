@@ -38,9 +38,7 @@
 ;;; Whole numbers, modulo one prime after the other.
 
 (defun algebra-whole-row (row)
-  (let* ((numbers (mapcar #'algebra-rational-number row))
-         (denominator (reduce #'lcm numbers :key #'denominator)))
-    (loop for x in numbers collect (* x denominator))))
+  (algebra-without-fractions (mapcar #'algebra-rational-number row)))
 
 (defun algebra-null-vectors (echelon columns)
   "One list of residues; the vectors of the null space one after the other."
