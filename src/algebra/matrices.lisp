@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/quotient" "algebra/scan" "algebra/evaluate"))
+  (core-require "algebra/common" "algebra/quotient" "algebra/scan" "algebra/evaluate"))
 
 (defun algebra-check-square (m what)
   (algebra-check-matrix m what)

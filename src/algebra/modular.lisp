@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; Modulo a prime: values of polynomials at points; elimination; images on a line x_i = a_i + b_i*t.
+;;; Modulo a prime: values of polynomials at points; elimination; images of polynomials on a line
+;;; x_i = a_i + b_i*t.
 ;;; Two polynomials are coprime, surely, if their images on a line are and no image loses degree:
 ;;; the form of highest degree of a common factor divides that of the polynomial.
 

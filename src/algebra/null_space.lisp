@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/linear" "algebra/modular"))
+  (core-require "algebra/common" "algebra/linear" "algebra/modular" "algebra/zero"))
 
 (defun $algebra_null_space (m)
   "A basis, a list of lists: in each one of the free unknowns is 1, the other free ones are 0."

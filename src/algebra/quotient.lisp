@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/modular"))
+  (core-require "algebra/size" "algebra/modular"))
 
 (defun algebra-gcd (p q)
   (cond ((or (eql p 1) (eql q 1)) 1)

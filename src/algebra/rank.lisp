@@ -7,7 +7,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/minors" "algebra/modular" "algebra/zero"))
+  (core-require "algebra/kernels" "algebra/minors" "algebra/modular" "algebra/zero"
+                "algebra/general_form" "algebra/matrices" "algebra/relations"
+                "algebra/zero_polynomials"))
 
 (defun $algebra_rank (m)
   (algebra-check-matrix m "the matrix of a rank")

@@ -48,7 +48,7 @@ rational, minf or inf."
 ;;; Lists of whole numbers, coefficients, the highest power first.
 
 (defun algebra-primitive (numbers)
-  "Rational NUMBERS as whole ones without a common factor, their signs kept, leading zeros left out."
+  "Rational NUMBERS as whole ones without a common factor, signs kept, leading zeros left out."
   (let* ((whole (algebra-without-fractions (member 0 numbers :test-not #'eql)))
          (content (reduce #'gcd whole :initial-value 0)))
     (if (member content '(0 1)) whole (mapcar (lambda (c) (truncate c content)) whole))))

@@ -12,8 +12,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/zero_polynomials" "algebra/modular" "algebra/scan"
-                "algebra/evaluate" "algebra/interval"))
+  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/zero_polynomials"
+                "algebra/normal" "algebra/modular" "algebra/scan" "algebra/evaluate"
+                "algebra/interval" "algebra/constant_sign" "algebra/relations"
+                "algebra/root_kernels"))
 
 (defun $algebra_zerop (e)
   "true, false or unknown, exactly"

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/reduction" "algebra/readable" "algebra/numbers"))
+  (core-require "algebra/kernels" "algebra/relations" "algebra/readable" "algebra/constant_sign"
+                "algebra/separation_bound"))
 
 (defun algebra-polynomial-test (p)
   (let ((unsure (algebra-unsure-kernels p)))

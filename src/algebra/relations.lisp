@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/quotient"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/quotient"))
 
 (defun algebra-reduce (p)
   "The remainder of the polynomial P, a quotient (radicands may have denominators)."

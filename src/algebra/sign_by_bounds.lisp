@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/facts" "algebra/sturm"))
+  (core-require "algebra/common" "algebra/known_signs" "algebra/sturm"
+                "algebra/packed_polynomials" "algebra/sign_by_parts" "algebra/sign_by_proof"))
 
 (defun algebra-names-of (e) (cdr ($listofvars e)))
 
@@ -199,7 +200,8 @@ c is known."
                                   (algebra-bounded-signs problem))))
     (if (null slope)
         '$unknown
-        (multiple-value-bind (shifted turned) (algebra-shifted-problem problem gap place slope depth)
+        (multiple-value-bind (shifted turned)
+            (algebra-shifted-problem problem gap place slope depth)
           (let ((sign (algebra-shift shifted (1- depth))))
             (if turned (algebra-opposite-sign sign) sign))))))
 
