@@ -145,8 +145,8 @@
   (reduce #'algebra-program-add elements :initial-value 0))
 
 ;;; Functions beside sine, cosine and square root, each an operation of its own. One row says all
-;;; that a program knows of a function: its value in double-float numbers, its value at 0, whether it
-;;; is odd or even, and its derivative,
+;;; that a program knows of a function: its value in double-float numbers, its value at 0, whether
+;;; it is odd or even, and its derivative,
 ;;;     exp' = exp, log' = 1/x, asin' = 1/sqrt(1 - x^2), atan' = 1/(1 + x^2), tanh' = 1 - tanh^2,
 ;;; powers with other than whole exponents, atan2(y,x)' = (x y' - y x')/(x^2 + y^2), |x|' = sign x.
 
