@@ -11,7 +11,7 @@ trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 
 cat >make.mac <<'END'
-(load("linmodel"), core_require("algebra/export"), fpprec: 40)$
+(load("linmodel"), core_require("algebra/program_export"), fpprec: 40)$
 write_lines(name, numbers) := block([stream: openw(name)],
   for e in numbers do printf(stream, "~a~%", ssubst("e", "b", string(bfloat(e)))), close(stream))$
 export(name, program) := for pair in ['c = "c", 'fortran = "f90", 'python = "py", 'lisp = "lisp"] do

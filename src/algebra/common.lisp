@@ -13,6 +13,11 @@
   "The rational R as Maxima holds it."
   (if (integerp r) r (list '(rat simp) (numerator r) (denominator r))))
 
+(defun algebra-without-fractions (numbers)
+  "Rational NUMBERS of Lisp times their least common denominator."
+  (let ((denominator (reduce #'lcm numbers :key #'denominator)))
+    (mapcar (lambda (x) (* x denominator)) numbers)))
+
 (defun algebra-prime-factors (n)
   "(prime power prime power ..); a large N counts as one prime."
   (cond ((= n 1) nil)

@@ -10,7 +10,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/groebner"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/groebner" "algebra/normal"
+                "algebra/evaluate" "algebra/general_form" "algebra/readable" "algebra/relations"
+                "algebra/scan"))
 
 (defparameter *algebra-most-points* 48 "dimension of the quotient ring up to which it is formed")
 (defparameter *algebra-most-exponent* 200 "exponent up to which bases are sought")

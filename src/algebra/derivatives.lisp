@@ -7,11 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal"))
-
-(defun $algebra_gradient (e xs)
-  "[de/dx, ..], normal."
-  (cons '(mlist simp) (car (algebra-jacobian (list e) (cdr xs)))))
+  (core-require "algebra/common" "algebra/kernels" "algebra/normal" "algebra/evaluate"
+                "algebra/quotient" "algebra/scan"))
 
 (defun $algebra_jacobian (es xs)
   "The matrix of de_i/dx_j, normal."

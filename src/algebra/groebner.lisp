@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/quotient"))
+  (core-require "algebra/size"))
 
 (defvar *algebra-degree-order* nil
   "true: monomials in the order of their degrees (graded, reversed); false: lexicographic.")

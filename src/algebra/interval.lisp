@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/nouns"))
+  (core-require "algebra/common" "algebra/kernels"))
 
 (defvar *algebra-interval-bits* 64)
 (defvar *algebra-point* nil "values of symbols and open functions: (expression . rational), ..")
@@ -303,34 +303,3 @@ the root of the leading half of the digits begins."
                                                  1))))
         (algebra-i+ (algebra-i* (algebra-i k) (twice-artanh (algebra-i 2)))
                     (twice-artanh m))))))
-
-;;; Points with rational coordinates at which the facts of the context hold.
-
-(defun algebra-nonzero-somewhere-p (e)
-  "E is proved not zero at one of some rational points that contradict no fact."
-  (loop for attempt from 1 to 24
-        thereis (algebra-nonzero-at-p e attempt)))
-
-(defun algebra-nonzero-at-p (e attempt)
-  (let* ((seed (* attempt 7919))
-         (*algebra-point* nil)
-         (*algebra-coordinate*
-           (lambda ()
-             (setq seed (mod (+ (* seed 1103515245) 12345) 2147483648))
-             (algebra-point-coordinate (floor seed 65536) attempt))))
-    (and (not (algebra-facts-fail-p))
-         (algebra-interval-sign-at e 192))))
-
-(defun algebra-point-coordinate (random attempt)
-  (let ((fraction (/ (+ 1 (mod random 96)) 97)))
-    (ecase (mod attempt 4)
-      (1 fraction)
-      (2 (+ 1 fraction))
-      (3 (* fraction (if (oddp (floor random 128)) 5 -5)))
-      (0 (* 30 fraction)))))
-
-(defun algebra-facts-fail-p ()
-  (loop for fact in (core-facts)
-        thereis (multiple-value-bind (e needed) (core-fact-difference fact)
-                  (let ((sign (and (member needed '($pos $pz)) (algebra-interval-sign-at e 64))))
-                    (and sign (minusp sign))))))

@@ -1,13 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; Linear equations with symbolic coefficients: Cramer's rule by memoised minors for M x = b
-;;; (numerators over one determinant), elimination with exact zero tests for systems that are
-;;; singular or not square.
+;;; Linear equations with symbolic coefficients: Cramer's rule for M x = b,
+;;;     x_j = sum over i of (-1)^(i+j) b_i M_ij/det M,
+;;; M_ij the minor without row i and column j, canonical or unexpanded; elimination with exact zero
+;;; tests for systems that are singular or not square.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/minors" "algebra/zero" "algebra/rank"))
+  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/minors" "algebra/zero"
+                "algebra/rank" "algebra/evaluate" "algebra/matrices" "algebra/normal"
+                "algebra/quotient" "algebra/relations" "algebra/scan"))
 
 (defun $algebra_inverse_times (m b)
   "x with M x = b, b a list (x a list) or a matrix of columns (x a matrix)."
@@ -34,12 +37,12 @@
 
 (defun algebra-cramer (rows right)
   (multiple-value-bind (matrix denominators) (algebra-row-denominators rows)
-    (let* ((cofactors (algebra-cofactors (algebra-square-array matrix)))
+    (let* ((cofactors (algebra-cofactors (algebra-rectangle matrix)))
            (determinant (algebra-expand-first-row matrix cofactors))
            (cleared (loop for row in right
                           for d in denominators
                           collect (loop for b in row collect (algebra-times b (cons d 1))))))
-      (when (algebra-vanishes-p determinant)
+      (when (algebra-zero-polynomial-p determinant)
         (core-error "the matrix of linear equations is singular"))
       (cons '($matrix simp)
             (loop for j below (length rows)
@@ -66,6 +69,56 @@
 (defun algebra-over-polynomial (quotient d)
   (cons (car quotient) (ptimes (cdr quotient) d)))
 
+;;; The same on general expressions, nothing multiplied out, for solutions that are too long in the
+;;; canonical form. Minors are made from those of their later rows, so that the expressions share
+;;; their parts.
+
+(defun $algebra_short_inverse_times (m b terms)
+  "x with M x = b in the canonical form; an error where a product would have more than TERMS."
+  (let ((*algebra-limit* terms) (*algebra-advice* "take form = factored"))
+    ($algebra_inverse_times m b)))
+
+(defun $algebra_unexpanded_inverse_times (m b)
+  "x with M x = b, b a list: sums of products of the elements."
+  (algebra-check-square m "the matrix of linear equations")
+  (let ((matrix (algebra-rectangle (mapcar #'cdr (cdr m)))) (right (cdr b)))
+    (algebra-guard (algebra-unexpanded-size matrix right)
+                   "the equations solved for the accelerations"
+                   "take EquationProgram with solved = true")
+    (algebra-unexpanded-solution matrix right)))
+
+(defun algebra-unexpanded-solution (matrix right)
+  (let* ((n (length right))
+         (minor (algebra-minors matrix #'algebra-first-row #'mul
+                                (lambda (terms) (addn terms nil))))
+         (determinant (funcall minor (algebra-all-of n) (algebra-all-of n))))
+    (when (eql determinant 0) (core-error "the matrix of linear equations is singular"))
+    (flet ((numerator (j)
+             (addn (loop for b in right
+                         for i from 0
+                         collect (mul (if (evenp (+ i j)) 1 -1) b
+                                      (funcall minor (algebra-all-but i n) (algebra-all-but j n))))
+                   nil)))
+      (cons '(mlist simp)
+            (loop for j below n collect (div (numerator j) determinant))))))
+
+(defun algebra-unexpanded-size (matrix right)
+  "How many nodes the solution would have, written out."
+  (let* ((n (length right))
+         (size (algebra-minors matrix #'algebra-first-row
+                               (lambda (sign entry size)
+                                 (declare (ignore sign))
+                                 (+ 1 (algebra-size entry) size))
+                               (lambda (sizes) (reduce #'+ sizes)))))
+    (loop for j below n
+          sum (+ (funcall size (algebra-all-of n) (algebra-all-of n))
+                 (loop for b in right
+                       for i from 0
+                       sum (+ (algebra-size b)
+                              (funcall size (algebra-all-but i n) (algebra-all-but j n))))))))
+
+;;; b . M^-1 . b
+
 (defun $algebra_inverse_form (m b)
   "b . M^-1 . b for a symmetric M: one numerator over one determinant."
   (algebra-check-square m "the matrix of a quadratic form")
@@ -80,7 +133,7 @@
 
 (defun algebra-inverse-form (rows b)
   (multiple-value-bind (matrix denominators) (algebra-row-denominators rows)
-    (let* ((cofactors (algebra-cofactors (algebra-square-array matrix)))
+    (let* ((cofactors (algebra-cofactors (algebra-rectangle matrix)))
            (determinant (algebra-expand-first-row matrix cofactors)))
       (algebra-over-polynomial
        (algebra-sum
@@ -95,18 +148,11 @@
 
 ;;; Elimination on general expressions, for systems of any shape.
 
-(defun algebra-surely-zero-p (e)
-  (or (eql e 0)
-      (case (algebra-zero-test e)
-        ((nil) nil)
-        ((t) t)
-        (t (core-undecided "it is not decided whether ~A vanishes" (algebra-short-text e))))))
-
 (defun algebra-echelon (rows columns)
   "Reduced echelon form of ROWS, pivots in the first COLUMNS only."
   (let ((done nil))
     (dotimes (column columns)
-      (let ((candidates (remove-if (lambda (row) (algebra-surely-zero-p (nth column row))) rows)))
+      (let ((candidates (remove-if (lambda (row) (algebra-decided-zero-p (nth column row))) rows)))
         (when candidates
           (let* ((pivot (algebra-least candidates
                                        (lambda (row) (algebra-size (nth column row)))))
@@ -155,12 +201,12 @@
     (sub (maxima-substitute 1 x others) (maxima-substitute 0 x others))))
 
 (defun algebra-contradiction-p (row)
-  (and (every #'algebra-surely-zero-p (butlast row))
-       (not (algebra-surely-zero-p (car (last row))))))
+  (and (every #'algebra-decided-zero-p (butlast row))
+       (not (algebra-decided-zero-p (car (last row))))))
 
 (defun algebra-solutions (rows xs)
   (let ((pivots (loop for row in rows
-                      for place = (position-if-not #'algebra-surely-zero-p (butlast row))
+                      for place = (position-if-not #'algebra-decided-zero-p (butlast row))
                       when place collect (cons place row))))
     (loop for x in xs
           for place from 0

@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; Polynomials modulo a prime: their values at points, their images on a line x_i = a_i + b_i*t.
+;;; Modulo a prime: values of polynomials at points; elimination; images of polynomials on a line
+;;; x_i = a_i + b_i*t.
 ;;; Two polynomials are coprime, surely, if their images on a line are and no image loses degree:
 ;;; the form of highest degree of a common factor divides that of the polynomial.
 
@@ -16,9 +17,24 @@
 (defmacro algebra-modulo (x)
   `(the fixnum (mod (the fixnum ,x) (algebra-prime))))
 
+(declaim (inline algebra-power-modulo))
+(defun algebra-power-modulo (x n p)
+  "X^N modulo P, a prime below 2^30; inline, for where the prime is a constant"
+  (let ((power 1) (base x))
+    (declare (fixnum power base p))
+    (loop until (zerop n)
+          do (when (oddp n) (setq power (mod (the fixnum (* power base)) p)))
+             (setq base (mod (the fixnum (* base base)) p)
+                   n (ash n -1)))
+    power))
+
+(defun algebra-modular-power (x n) (algebra-power-modulo x n (algebra-prime)))
+
 (defun algebra-modular-inverse (a)
   "a^(p-2) modulo p"
   (algebra-modular-power (mod a (algebra-prime)) (- (algebra-prime) 2)))
+
+(defun algebra-inverse-modulo (a p) (algebra-power-modulo (mod a p) (- p 2) p))
 
 ;;; Values at a point: a table of the variables.
 
@@ -31,15 +47,6 @@
                                           (algebra-modular-value coefficient point)))
                                 (algebra-prime))))
         sum)))
-
-(defun algebra-modular-power (x n)
-  (let ((power 1) (base x))
-    (declare (fixnum power base))
-    (loop until (zerop n)
-          do (when (oddp n) (setq power (algebra-modulo (* power base))))
-             (setq base (algebra-modulo (* base base))
-                   n (ash n -1)))
-    power))
 
 (defun algebra-modular-point (seed)
   "Values of all variables: for each angle c = (1-u^2)/(1+u^2), s = 2u/(1+u^2)."
@@ -59,6 +66,34 @@
          (below (algebra-modular-inverse (1+ square))))
     (cons (mod (* (- 1 square) below) (algebra-prime))
           (mod (* 2 u below) (algebra-prime)))))
+
+;;; Elimination modulo any prime below 2^30.
+
+(defun algebra-subtract-row (row factor pivot-row from p)
+  "ROW less FACTOR times PIVOT-ROW, from a column on."
+  (declare (simple-vector row pivot-row) (fixnum factor from p))
+  (loop for k of-type fixnum from from below (length row)
+        for x of-type fixnum = (svref pivot-row k)
+        unless (zerop x)
+          do (setf (svref row k)
+                   (mod (the fixnum (- (the fixnum (svref row k)) (the fixnum (* factor x)))) p))))
+
+(defun algebra-echelon-modulo (rows p)
+  "((column . row) ..): the reduced echelon form of ROWS modulo P; and which rows became these."
+  (let* ((all (loop for row in rows collect (map 'simple-vector (lambda (x) (mod x p)) row)))
+         (rest all)
+         (done '()))
+    (dotimes (column (length (car rows)))
+      (let ((pivot (find-if (lambda (row) (plusp (svref row column))) rest)))
+        (when pivot
+          (let ((inverse (algebra-inverse-modulo (svref pivot column) p)))
+            (map-into pivot (lambda (x) (mod (* x inverse) p)) pivot))
+          (setq rest (remove pivot rest :test #'eq))
+          (dolist (row (append rest (mapcar #'cdr done)))
+            (algebra-subtract-row row (svref row column) pivot column p))
+          (push (cons column pivot) done))))
+    (let ((echelon (nreverse done)))
+      (values echelon (loop for (nil . row) in echelon collect (position row all :test #'eq))))))
 
 ;;; Images on a line: vectors of coefficients, lowest first, without leading zeros.
 

@@ -2,14 +2,15 @@
 ;;;
 ;;; algebra_normal(e): the canonical form of an expression, in general form, fit to be read:
 ;;; sin(theta)^2*v^2 and not (1-cos(theta)^2)*v^2.  algebra_ratio(e): [numerator, denominator].
-;;; The quotient is reduced modulo the relations of the kernels (reduction.lisp); below the line
+;;; The quotient is reduced modulo the relations of the kernels (relations.lisp); below the line
 ;;; the form of each angle is chosen that cancels most.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/scan" "algebra/evaluate" "algebra/readable" "algebra/general"
-                "algebra/vanishing"))
+  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/scan"
+                "algebra/evaluate" "algebra/readable" "algebra/general_form"
+                "algebra/zero_polynomials" "algebra/quotient" "algebra/relations"))
 
 (defun $algebra_normal (e)
   (algebra-map-bags #'algebra-normal-form e))

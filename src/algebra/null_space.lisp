@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/linear"))
+  (core-require "algebra/common" "algebra/linear" "algebra/modular" "algebra/zero"))
 
 (defun $algebra_null_space (m)
   "A basis, a list of lists: in each one of the free unknowns is 1, the other free ones are 0."
@@ -25,7 +25,7 @@
   (let* ((columns (length (car rows)))
          (echelon (algebra-echelon rows columns))
          (pivots (loop for row in echelon
-                       for place = (position-if-not #'algebra-surely-zero-p row)
+                       for place = (position-if-not #'algebra-decided-zero-p row)
                        when place collect (cons place row))))
     (loop for free below columns
           unless (assoc free pivots)
@@ -35,45 +35,10 @@
                                         ((= k free) 1)
                                         (t 0))))))
 
-;;; Whole numbers modulo a prime below 2^30: products are fixnums.
+;;; Whole numbers, modulo one prime after the other.
 
 (defun algebra-whole-row (row)
-  (let* ((numbers (mapcar #'algebra-rational-number row))
-         (denominator (reduce #'lcm numbers :key #'denominator)))
-    (loop for x in numbers collect (* x denominator))))
-
-(defun algebra-inverse-modulo (a p)
-  "a^(p-2) modulo P"
-  (let ((power 1) (base (mod a p)) (n (- p 2)))
-    (declare (fixnum power base n p))
-    (loop until (zerop n)
-          do (when (oddp n) (setq power (mod (the fixnum (* power base)) p)))
-             (setq base (mod (the fixnum (* base base)) p)
-                   n (ash n -1)))
-    power))
-
-(defun algebra-subtract-row (row factor pivot-row from p)
-  "ROW less FACTOR times PIVOT-ROW, from a column on."
-  (declare (simple-vector row pivot-row) (fixnum factor from p))
-  (loop for k of-type fixnum from from below (length row)
-        for x of-type fixnum = (svref pivot-row k)
-        unless (zerop x)
-          do (setf (svref row k)
-                   (mod (the fixnum (- (the fixnum (svref row k)) (the fixnum (* factor x)))) p))))
-
-(defun algebra-echelon-modulo (rows p)
-  "((column . row) ..): the reduced echelon form of ROWS modulo P."
-  (let ((rest (loop for row in rows collect (map 'simple-vector (lambda (x) (mod x p)) row)))
-        (done nil))
-    (dotimes (column (length (car rows)) (nreverse done))
-      (let ((pivot (find-if (lambda (row) (plusp (svref row column))) rest)))
-        (when pivot
-          (let ((inverse (algebra-inverse-modulo (svref pivot column) p)))
-            (map-into pivot (lambda (x) (mod (* x inverse) p)) pivot))
-          (setq rest (remove pivot rest :test #'eq))
-          (dolist (row (append rest (mapcar #'cdr done)))
-            (algebra-subtract-row row (svref row column) pivot column p))
-          (push (cons column pivot) done))))))
+  (algebra-without-fractions (mapcar #'algebra-rational-number row)))
 
 (defun algebra-null-vectors (echelon columns)
   "One list of residues; the vectors of the null space one after the other."

@@ -5,7 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record"))
+  (core-require "algebra/program_record" "algebra/program_from_expressions"
+                "algebra/program_nodes"))
 
 (defun algebra-partial-derivatives (node)
   "List of (part . derivative of NODE by that part), parts that are nodes."

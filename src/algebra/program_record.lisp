@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_value"))
+  (core-require "algebra/common" "algebra/program_evaluation" "algebra/program_from_expressions"
+                "algebra/program_nodes"))
 
 ;;; Outputs are a list of (name . value), value an element, a list (:list ..) or (:matrix row ..).
 

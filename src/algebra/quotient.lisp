@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/contents" "algebra/modular"))
+  (core-require "algebra/size" "algebra/modular"))
 
 (defun algebra-gcd (p q)
   (cond ((or (eql p 1) (eql q 1)) 1)
@@ -40,6 +40,34 @@
               do (setq content (gcd content (algebra-number-content coefficient)))
               until (= content 1))
         content)))
+
+(defun algebra-monomial (p)
+  "The monomial that divides P: a list of (variable . exponent)."
+  (if (atom p)
+      nil
+      (let ((common 'none))
+        (loop for (exponent coefficient) on (cdr p) by #'cddr
+              for inner = (algebra-monomial coefficient)
+              for here = (if (zerop exponent) inner (acons (car p) exponent inner))
+              do (setq common (algebra-common-monomial common here))
+              while common)
+        common)))
+
+(defun algebra-common-monomial (a b)
+  (if (eq a 'none)
+      b
+      (loop for (variable . exponent) in a
+            for other = (cdr (assoc variable b :test #'eq))
+            when other collect (cons variable (min exponent other)))))
+
+(defun algebra-monomial-polynomial (monomial)
+  (let ((product 1))
+    (loop for (variable . exponent) in monomial
+          do (setq product (ptimes product (list variable exponent 1))))
+    product))
+
+(defun algebra-divided (p content)
+  (if (or (eql content 1) (pzerop p)) p (pquotient p content)))
 
 (defun algebra-quotient-of (n d)
   "N/D reduced, the denominator's first coefficient positive."

@@ -7,7 +7,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/minors" "algebra/modular" "algebra/zero"))
+  (core-require "algebra/kernels" "algebra/minors" "algebra/modular" "algebra/zero"
+                "algebra/general_form" "algebra/matrices" "algebra/relations"
+                "algebra/zero_polynomials"))
 
 (defun $algebra_rank (m)
   (algebra-check-matrix m "the matrix of a rank")
@@ -24,14 +26,9 @@
 
 (defun algebra-rank-matrix (m)
   "Its rows without denominators, in the ring at hand."
-  (let ((*algebra-exponential-form* t)
-        (*algebra-roots-apart* t)
-        (*algebra-every-multiple* t))
+  (with-algebra-zero-form
     (algebra-rectangle (mapcar (lambda (row) (nth-value 0 (algebra-common-denominator row)))
                                (algebra-matrix-quotients m)))))
-
-(defun algebra-rectangle (rows)
-  (make-array (list (length rows) (length (car rows))) :initial-contents rows))
 
 (defun algebra-border (matrix rows columns)
   "The rank, from the ROWS and COLUMNS of a minor that does not vanish."
@@ -39,14 +36,14 @@
     (unless (member i rows)
       (dotimes (j (array-dimension matrix 1))
         (unless (member j columns)
-          (unless (algebra-minor-vanishes-p matrix (cons i rows) (cons j columns))
+          (unless (algebra-minor-zero-p matrix (cons i rows) (cons j columns))
             (return-from algebra-border
               (algebra-border matrix (cons i rows) (cons j columns)))))))))
 
-(defun algebra-minor-vanishes-p (matrix rows columns)
+(defun algebra-minor-zero-p (matrix rows columns)
   (let ((minor (algebra-reduce
                 (algebra-determinant-polynomial
-                 (algebra-square-array
+                 (algebra-rectangle
                   (loop for i in rows
                         collect (loop for j in columns collect (aref matrix i j))))))))
     (or (pzerop (car minor))
@@ -55,38 +52,20 @@
           (not-zero nil)
           (t (if (algebra-nonzero-somewhere-p (algebra-general (car minor)))
                  nil
-                 (core-undecided "it is not decided whether ~A vanishes"
-                                 (algebra-short-text (algebra-general (car minor))))))))))
+                 (algebra-zero-undecided (algebra-general (car minor)))))))))
 
 ;;; A point modulo a prime.
 
 (defun algebra-point-minor (matrix)
   "(rows . columns) of a minor that does not vanish at a point; none if some kernel has no value."
   (if (every #'algebra-kernel-sure (algebra-ring-kernels *algebra-ring*))
-      (algebra-modular-pivots (algebra-modular-matrix matrix (algebra-modular-point 20011)))
+      (multiple-value-bind (echelon rows)
+          (algebra-echelon-modulo (algebra-modular-rows matrix (algebra-modular-point 20011))
+                                  (algebra-prime))
+        (cons rows (mapcar #'car echelon)))
       '(nil)))
 
-(defun algebra-modular-matrix (matrix point)
-  (let ((values (make-array (array-dimensions matrix))))
-    (dotimes (i (array-dimension matrix 0) values)
-      (dotimes (j (array-dimension matrix 1))
-        (setf (aref values i j) (algebra-modular-value (aref matrix i j) point))))))
-
-(defun algebra-modular-pivots (a)
-  (let ((rows nil) (columns nil))
-    (dotimes (j (array-dimension a 1) (cons rows columns))
-      (let ((pivot (loop for i below (array-dimension a 0)
-                         when (and (not (member i rows)) (plusp (aref a i j))) return i)))
-        (when pivot
-          (push pivot rows)
-          (push j columns)
-          (algebra-modular-clear a pivot j))))))
-
-(defun algebra-modular-clear (a pivot j)
-  (let ((inverse (algebra-modular-inverse (aref a pivot j))))
-    (dotimes (i (array-dimension a 0))
-      (unless (or (= i pivot) (zerop (aref a i j)))
-        (let ((factor (* (aref a i j) inverse)))
-          (dotimes (k (array-dimension a 1))
-            (setf (aref a i k)
-                  (mod (- (aref a i k) (* factor (aref a pivot k))) (algebra-prime)))))))))
+(defun algebra-modular-rows (matrix point)
+  (loop for i below (array-dimension matrix 0)
+        collect (loop for j below (array-dimension matrix 1)
+                      collect (algebra-modular-value (aref matrix i j) point))))

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/zero" "algebra/facts" "algebra/bounds"))
+  (core-require "algebra/size" "algebra/zero" "algebra/known_signs" "algebra/sign_by_bounds"
+                "algebra/packed_polynomials" "algebra/sign_by_parts"))
 
 (defun $algebra_sign (e)
   "pos, neg, zero, pz (>= 0), nz (<= 0), pn (not zero) or unknown."

@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; The size of expressions, and the guard that stands before every expansion: running out of heap
-;;; kills the Lisp, so a result that is predicted too large is refused with its figure.
+;;; The size of expressions, a bound of their degree, and the guard that stands before every
+;;; expansion: running out of heap kills the Lisp, so a result that is predicted too large is
+;;; refused with its figure.
 
 (in-package :maxima)
 
@@ -58,6 +59,17 @@
 (defun $algebra_guard (predicted what)
   (algebra-guard predicted (if (stringp what) what (coerce (mstring what) 'string)))
   '$done)
+
+;;; Degree: from exponents alone, nothing is expanded.
+
+(defun $algebra_degree_bound (e x)
+  "Not less than the degree of E in X, if it is a polynomial."
+  (cond ((eq e x) 1)
+        ((atom e) 0)
+        ((mplusp e) (reduce #'max (cdr e) :key (lambda (part) ($algebra_degree_bound part x))))
+        ((mexptp e) (let ((n (caddr e)))
+                      (* (if (typep n '(integer 0)) n 1) ($algebra_degree_bound (cadr e) x))))
+        (t (loop for part in (cdr e) sum ($algebra_degree_bound part x)))))
 
 ;;; Products and powers of polynomials (Maxima's recursive form).
 

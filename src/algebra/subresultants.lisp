@@ -11,7 +11,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/numbers"))
+  (core-require "algebra/common" "algebra/constant_sign" "algebra/interval"
+                "algebra/separation_bound"))
 
 (defvar *algebra-field-degree* nil "degree of the field of all coefficients; nil: not algebraic")
 

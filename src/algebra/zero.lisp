@@ -1,19 +1,43 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; algebra_zerop(e): true, false or unknown, exactly.  True: the numerator vanishes modulo the
-;;; relations of its kernels.  False: a value at a point is not zero, modulo a prime where the
-;;; kernels are independent, else by intervals.
+;;; Does an expression vanish?  Four questions, each with a word of its own:
+;;;   (eql e 0)                   it is the number 0 as it stands;
+;;;   algebra_zero_at_samples(e)  it is 0 at two random points: a check, no proof;
+;;;   algebra_zerop(e)            it vanishes identically, proved; unknown where nothing is;
+;;;   algebra_nonzero(e)          it cannot vanish where the facts hold (sign.lisp).
+;;; algebra_zerop: true where the numerator vanishes modulo the relations of its kernels; false
+;;; where a value at a point is not zero, modulo a prime where the kernels are independent, else by
+;;; intervals.  Polynomials in kernels: zero_polynomials.lisp.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/sample" "algebra/vanishing" "algebra/interval"))
+  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/zero_polynomials"
+                "algebra/normal" "algebra/modular" "algebra/scan" "algebra/evaluate"
+                "algebra/interval" "algebra/constant_sign" "algebra/relations"
+                "algebra/root_kernels"))
 
 (defun $algebra_zerop (e)
-  (cond ((mequalp e) (algebra-zero-test (sub (cadr e) (caddr e))))
-        ((mbagp e) (algebra-worst-answer (mapcar #'$algebra_zerop (cdr e))))
-        ((numberp e) (zerop e))
-        (t (algebra-zero-test e))))
+  "true, false or unknown, exactly"
+  (algebra-asked-of-all (lambda (e) (if (numberp e) (zerop e) (algebra-zero-test e))) e))
+
+(defun $algebra_zero_at_samples (e)
+  "true: at two random points; false: surely not zero; unknown: roots or other bound kernels."
+  (algebra-asked-of-all #'algebra-zero-at-samples e))
+
+(defun algebra-asked-of-all (question e)
+  "The answer for E, for the difference of both sides, for the worst of many elements."
+  (cond ((mequalp e) (funcall question (sub (cadr e) (caddr e))))
+        ((mbagp e) (algebra-worst-answer
+                    (mapcar (lambda (part) (algebra-asked-of-all question part)) (cdr e))))
+        (t (funcall question e))))
+
+(defun algebra-worst-answer (answers)
+  (cond ((member nil answers) nil)
+        ((member '$unknown answers) '$unknown)
+        (t t)))
+
+;;; The proof
 
 (defun algebra-zero-test (e)
   (case (or (and ($constantp e) (algebra-constant-verdict e)) (algebra-remainder-test e))
@@ -21,21 +45,163 @@
     ((1 -1 not-zero) nil)
     (t (if (algebra-nonzero-somewhere-p e) nil '$unknown))))
 
+(defun algebra-decided-zero-p (e)
+  "Whether E vanishes; an error where that is not decided."
+  (or (eql e 0)
+      (case (algebra-zero-test e)
+        ((nil) nil)
+        ((t) t)
+        (t (algebra-zero-undecided e)))))
+
+(defun algebra-zero-undecided (e)
+  (core-undecided "it is not decided whether ~A vanishes" (algebra-short-text e)))
+
+(defmacro with-algebra-zero-form (&body body)
+  "Expressions are read as a zero test wants them: hyperbolic functions as exponentials, roots of
+products apart, all multiples of angles expanded."
+  `(let ((*algebra-exponential-form* t) (*algebra-roots-apart* t) (*algebra-every-multiple* t))
+     ,@body))
+
 (defun algebra-remainder-test (e)
   "zero; not-zero; dependent: no zero polynomial, but its kernels may be bound; too-large."
   (with-algebra-ring
-    (let* ((*algebra-exponential-form* t)
-           (*algebra-roots-apart* t)
-           (*algebra-every-multiple* t)
-           (skeleton (algebra-scan e)))
-      (algebra-order-kernels)
-      (if (null (algebra-sampled-zero skeleton))
-          'not-zero
-          (let ((*algebra-may-give-up* t))
-            (catch 'algebra-too-large
-              (algebra-expanded-test (algebra-evaluate skeleton))))))))
+    (with-algebra-zero-form
+      (let ((skeleton (algebra-scan e)))
+        (algebra-order-kernels)
+        (if (null (algebra-sampled-zero skeleton))
+            'not-zero
+            (let ((*algebra-may-give-up* t))
+              (catch 'algebra-too-large
+                (algebra-expanded-test (algebra-evaluate skeleton)))))))))
 
 (defun algebra-expanded-test (quotient)
   (when (eq 'zero (algebra-polynomial-test (car (algebra-reduce (cdr quotient)))))
     (core-error "division by zero"))
   (algebra-polynomial-test (car (algebra-reduce (car quotient)))))
+
+;;; At points modulo a prime, nothing expanded: rational points of the circle for the angles, any
+;;; numbers for independent kernels.
+
+(defun algebra-zero-at-samples (e)
+  (with-algebra-ring
+    (with-algebra-zero-form
+      (let ((skeleton (algebra-scan e)))
+        (algebra-number-kernels)
+        (algebra-sampled-zero skeleton)))))
+
+(defun algebra-sampled-zero (skeleton)
+  "The answer for a skeleton in the ring at hand."
+  (let ((samples (loop for seed in '(20011 70001)
+                       collect (algebra-sample skeleton (algebra-modular-point seed)))))
+    (cond ((member nil samples) '$unknown)
+          ((some #'plusp samples) nil)
+          (t t))))
+
+(defun algebra-sample (skeleton point)
+  "The value modulo the prime; nil if a kernel is not independent or a denominator vanishes."
+  (if (every #'algebra-kernel-sure (algebra-ring-kernels *algebra-ring*))
+      (catch 'no-sample (algebra-sampled skeleton point))))
+
+(defun algebra-sampled (skeleton point)
+  (cond ((integerp skeleton) (mod skeleton (algebra-prime)))
+        ((rationalp skeleton)
+         (algebra-modulo (* (mod (numerator skeleton) (algebra-prime))
+                            (algebra-sampled-inverse (denominator skeleton)))))
+        ((algebra-kernel-p skeleton) (gethash (algebra-kernel-variable skeleton) point))
+        (t (ecase (car skeleton)
+             (+ (algebra-sampled-sum (cdr skeleton) point))
+             (* (algebra-sampled-product (cdr skeleton) point))
+             (^ (algebra-sampled-power (algebra-sampled (cadr skeleton) point) (caddr skeleton)))
+             (cosine (car (algebra-sampled-angle (cadr skeleton) point)))
+             (sine (cdr (algebra-sampled-angle (cadr skeleton) point)))
+             (power (algebra-sampled-exponential (cadr skeleton) point))))))
+
+(defun algebra-sampled-sum (parts point)
+  (let ((sum 0))
+    (declare (fixnum sum))
+    (dolist (part parts sum)
+      (setq sum (algebra-modulo (+ sum (the fixnum (algebra-sampled part point))))))))
+
+(defun algebra-sampled-product (parts point)
+  (let ((product 1))
+    (declare (fixnum product))
+    (dolist (part parts product)
+      (setq product (algebra-modulo (* product (the fixnum (algebra-sampled part point))))))))
+
+(defun algebra-sampled-inverse (a)
+  (if (zerop (mod a (algebra-prime)))
+      (throw 'no-sample nil)
+      (algebra-modular-inverse a)))
+
+(defun algebra-sampled-power (base n)
+  (if (minusp n)
+      (algebra-sampled-power (algebra-sampled-inverse base) (- n))
+      (algebra-modular-power base n)))
+
+(defun algebra-sampled-angle (terms point)
+  "(cosine . sine) of a sum of angles."
+  (let ((first (algebra-sampled-term (car terms) point)))
+    (if (null (cdr terms))
+        first
+        (algebra-sampled-turn first (algebra-sampled-angle (cdr terms) point)
+                              (algebra-angle-sign (car terms))))))
+
+(defun algebra-sampled-turn (a b sign)
+  (cons (algebra-modulo (+ (algebra-modulo (* (car a) (car b)))
+                           (* sign (algebra-modulo (* (cdr a) (cdr b))))))
+        (algebra-modulo (+ (algebra-modulo (* (cdr a) (car b)))
+                           (algebra-modulo (* (car a) (cdr b)))))))
+
+(defun algebra-sampled-term (term point)
+  (if (eq (car term) 'known)
+      (cons (algebra-sampled (cadr term) point) (algebra-sampled (caddr term) point))
+      (let* ((unit (cdr term))
+             (n (* (car term) (algebra-unit-denominator unit)))
+             (c (gethash (algebra-kernel-variable (algebra-unit-cosine unit)) point))
+             (s (gethash (algebra-kernel-variable (algebra-unit-sine unit)) point))
+             (step (cons c (if (minusp n) (mod (- s) (algebra-prime)) s)))
+             (angle (cons 1 0)))
+        (loop repeat (abs n)
+              do (setq angle (algebra-sampled-turn angle step (algebra-angle-sign term))))
+        angle)))
+
+(defun algebra-sampled-exponential (terms point)
+  (let ((product 1))
+    (loop for (factor . unit) in terms
+          for value = (gethash (algebra-kernel-variable (algebra-unit-cosine unit)) point)
+          do (setq product
+                   (algebra-modulo
+                    (* product (algebra-sampled-power
+                                value (* factor (algebra-unit-denominator unit)))))))
+    product))
+
+;;; Points with rational coordinates at which the facts of the context hold.
+
+(defun algebra-nonzero-somewhere-p (e)
+  "E is proved not zero at one of some rational points that contradict no fact."
+  (loop for attempt from 1 to 24
+        thereis (algebra-nonzero-at-p e attempt)))
+
+(defun algebra-nonzero-at-p (e attempt)
+  (let* ((seed (* attempt 7919))
+         (*algebra-point* nil)
+         (*algebra-coordinate*
+           (lambda ()
+             (setq seed (mod (+ (* seed 1103515245) 12345) 2147483648))
+             (algebra-point-coordinate (floor seed 65536) attempt))))
+    (and (not (algebra-facts-fail-p))
+         (algebra-interval-sign-at e 192))))
+
+(defun algebra-point-coordinate (random attempt)
+  (let ((fraction (/ (+ 1 (mod random 96)) 97)))
+    (ecase (mod attempt 4)
+      (1 fraction)
+      (2 (+ 1 fraction))
+      (3 (* fraction (if (oddp (floor random 128)) 5 -5)))
+      (0 (* 30 fraction)))))
+
+(defun algebra-facts-fail-p ()
+  (loop for fact in (core-facts)
+        thereis (multiple-value-bind (e needed) (core-fact-difference fact)
+                  (let ((sign (and (member needed '($pos $pz)) (algebra-interval-sign-at e 64))))
+                    (and sign (minusp sign))))))

@@ -11,7 +11,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/derivatives" "algebra/collected" "forms/bound"))
+  (core-require "algebra/derivatives" "algebra/shortest_forms" "forms/bound"))
 
 (defstruct forms-derivation
   function dissipation forces ; L, Rayleigh's function, the forces: quotients

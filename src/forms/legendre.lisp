@@ -12,7 +12,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/linear" "forms/derivation"))
+  (core-require "algebra/minors" "algebra/linear" "forms/derivation"))
 
 (defun $forms_inverse_form (a b form)
   "b.A^-1.b/2 for a symmetric regular A."
@@ -79,26 +79,6 @@
 
 ;;; Factored.
 
-(defun forms-minors (n entry add multiply)
-  "A function of (rows columns): the minor of the list ROWS in the set COLUMNS, by its first row."
-  (let ((known (make-hash-table :test #'equal)))
-    (labels ((minor (rows columns)
-               (if (null rows)
-                   1
-                   (let ((key (cons rows columns)))
-                     (or (gethash key known)
-                         (setf (gethash key known) (expanded (car rows) (cdr rows) columns))))))
-             (expanded (row rows columns)
-               (let ((sum 0) (sign 1))
-                 (dotimes (j n sum)
-                   (when (logbitp j columns)
-                     (unless (eql 0 (funcall entry row j))
-                       (setq sum (funcall add sum
-                                          (funcall multiply sign (funcall entry row j)
-                                                   (minor rows (logandc2 columns (ash 1 j)))))))
-                     (setq sign (- sign)))))))
-      #'minor)))
-
 (defparameter *forms-advice* "take EquationProgram, in which nothing is repeated")
 
 (defun $forms_guard_derivatives (h n)
@@ -117,26 +97,22 @@ of some three times its length."
 (defun forms-nested-form (rows b)
   "By minors, or by elimination where that is much shorter."
   (let ((*algebra-advice* *forms-advice*)
-        (entries (forms-entries rows)))
+        (entries (algebra-rectangle rows)))
     (destructuring-bind (minors elimination) (forms-nested-sizes rows b)
       (algebra-guard (min minors elimination) "this quadratic form in the momenta")
       (if (< minors (* 2 elimination))
-          (forms-quotient-of-minors (length rows) (lambda (i j) (aref entries i j)) b #'add #'mul
+          (forms-quotient-of-minors entries b #'mul (lambda (terms) (addn terms nil))
                                     (lambda (x y) (div x (mul 2 y))))
           (forms-by-elimination rows b)))))
-
-(defun forms-entries (rows)
-  (make-array (list (length rows) (length rows)) :initial-contents rows))
 
 (defun forms-nested-sizes (rows b)
   "How many nodes the form has by minors and by elimination."
   (let* ((rows (loop for row in rows
                      collect (mapcar (lambda (e) (if (eql e 0) 0 (algebra-size e))) row)))
-         (b (mapcar #'algebra-size b))
-         (entries (forms-entries rows)))
+         (b (mapcar #'algebra-size b)))
     (flet ((sum (&rest sizes) (apply #'+ (mapcar #'abs sizes))))
-      (list (forms-quotient-of-minors (length rows) (lambda (i j) (aref entries i j)) b
-                                      #'sum #'sum #'sum)
+      (list (forms-quotient-of-minors (algebra-rectangle rows) b
+                                      #'sum (lambda (sizes) (apply #'sum sizes)) #'sum)
             (destructuring-bind (rows b) (forms-smallest-first rows rows b)
               (forms-elimination rows b #'sum
                                  (lambda (e factor x pivot same)
@@ -154,7 +130,7 @@ of some three times its length."
                        (lambda (e factor x pivot same)
                          (sub e (div (if same (power factor 2) (mul factor x)) pivot)))
                        (lambda (y pivot)
-                         (when (eq t ($algebra_vanishes pivot))
+                         (when (eq t ($algebra_zero_at_samples pivot))
                            (core-error "the quadratic form in the momenta is long, and its ~
                                         elimination meets a zero; give numbers to parameters"))
                          (div (power y 2) (mul 2 pivot))))))
@@ -184,20 +160,18 @@ of some three times its length."
                           collect (less y factor (car b) nil))
                     add less over))))))
 
-(defun forms-quotient-of-minors (n entry b add multiply over)
-  "sum b_i b_j C_ij OVER the determinant, in the arithmetic of ADD and MULTIPLY."
-  (let ((minor (forms-minors n entry add multiply)) (sum 0) (all (1- (ash 1 n))))
-    (flet ((cofactor (i j)
-             (funcall minor (loop for k below n unless (= k i) collect k)
-                      (logandc2 all (ash 1 j)))))
-      (loop for i from 0
-            for (b-i . others) on b
-            do (loop for j from i
-                     for b-j in (cons b-i others)
-                     for c = (cofactor i j)
-                     unless (eql c 0)
-                       do (setq sum (funcall add sum
-                                             (funcall multiply
+(defun forms-quotient-of-minors (entries b times sum over)
+  "The SUM of b_i b_j C_ij OVER the determinant, in the arithmetic of TIMES and SUM."
+  (let* ((n (array-dimension entries 0))
+         (minor (algebra-minors entries #'algebra-first-row times sum))
+         (terms (loop for i from 0
+                      for (b-i . others) on b
+                      append (loop for j from i
+                                   for b-j in (cons b-i others)
+                                   for c = (funcall minor (algebra-all-but i n)
+                                                    (algebra-all-but j n))
+                                   unless (eql c 0)
+                                     collect (funcall times
                                                       (* (if (= i j) 1 2) (if (evenp (+ i j)) 1 -1))
-                                                      b-i b-j c))))))
-    (funcall over sum (funcall minor (loop for k below n collect k) all))))
+                                                      b-i b-j c)))))
+    (funcall over (funcall sum terms) (funcall minor (algebra-all-of n) (algebra-all-of n)))))

@@ -5,7 +5,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program"))
+  (core-require "algebra/program_from_expressions"))
 
 (defun forms-program-factors (rows fault)
   "The array with L below the diagonal and D on it, ROWS = L D L^T; FAULT: what a zero in D means."

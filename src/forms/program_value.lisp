@@ -4,7 +4,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program" "forms/noun_value"))
+  (core-require "algebra/program_from_expressions" "forms/noun_value"))
 
 (defun forms-program-values (elements point)
   "The values of ELEMENTS; where one is divided by nothing, forms-no-value is thrown."

@@ -8,7 +8,7 @@
 
 (core-option :truth "simplify" "expanded" "eliminate" "solved")
 
-(core-fact-judge "algebra/facts" 'algebra-name-signs)
+(core-fact-judge "algebra/known_signs" 'algebra-name-signs)
 
 ;;; What acts beside L, and how equations are wanted
 

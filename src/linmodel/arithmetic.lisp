@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/collected" "linmodel/polar"))
+  (core-require "algebra/normal" "algebra/shortest_forms" "linmodel/polar"))
 
 (defstruct linmodel-arithmetic
   lift lower add multiply sine cosine

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/quotient"))
+  (core-require "algebra/size" "algebra/quotient"))
 
 (defun algebra-general (p)
   "The expression of the polynomial P."

@@ -1,12 +1,12 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Straight-line programs from expressions: each operator of an expression by the operations of
-;;; program_node.lisp and the functions of program_function.lisp; what is no input, number, or sum,
-;;; product, power or function of such is refused. Which nodes an output needs, in which order.
+;;; program_nodes.lisp; what is no input, number, or sum, product, power or function of such is
+;;; refused. Which nodes an output needs, in which order.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_node" "algebra/program_function"))
+  (core-require "algebra/common" "algebra/program_nodes"))
 
 ;;; From expressions.
 

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/quotient"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/quotient"))
 
 (defun algebra-reduce (p)
   "The remainder of the polynomial P, a quotient (radicands may have denominators)."
@@ -137,5 +137,5 @@
       (loop for (exponent coefficient) on (cdr p) by #'cddr
             sum (+ (min exponent 2) (algebra-poly-size coefficient)))))
 
-(defun algebra-vanishes-p (p)
+(defun algebra-zero-polynomial-p (p)
   (pzerop (car (algebra-reduce p))))

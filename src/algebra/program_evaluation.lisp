@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program"))
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes"))
 
 (defun algebra-program-values (elements point exactly)
   "The values of ELEMENTS; POINT is a list of (expression . number)."

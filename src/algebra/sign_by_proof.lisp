@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/term_tables" "algebra/simplex"))
+  (core-require "algebra/packed_polynomials" "algebra/simplex" "algebra/sign_by_parts"))
 
 (defparameter *algebra-certificate-size* 6000
   "Largest product of the numbers of monomials and of products for which a proof is sought.")

@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/nouns" "algebra/numbers"
-                "algebra/in_factors"))
+  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/constant_sign"
+                "algebra/factoring"))
 
 (defvar *algebra-roots-apart* nil "true: roots of products become products of roots where allowed")
 (defvar *algebra-sign-judge* nil "the sign of what is no number, by the facts; set by facts.lisp")
@@ -87,7 +87,7 @@
   (if ($constantp e)
       (case (algebra-constant-verdict e) (1 '$pos) (-1 '$neg) (0 '$zero) (t '$unknown))
       (algebra-quietly (lambda ()
-                         (core-require "algebra/facts")
+                         (core-require "algebra/known_signs")
                          (funcall *algebra-sign-judge* e)))))
 
 (defun algebra-absolute (e scan)

@@ -9,7 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/subresultants"))
+  (core-require "algebra/common" "algebra/subresultants" "algebra/constant_sign"
+                "algebra/interval" "algebra/separation_bound"))
 
 (defun $algebra_located (coefficients)
   "[left, axis, right]; false where a coefficient is not algebraic and intervals do not decide."

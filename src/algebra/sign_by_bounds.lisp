@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/facts" "algebra/polynomial"))
+  (core-require "algebra/common" "algebra/known_signs" "algebra/sturm"
+                "algebra/packed_polynomials" "algebra/sign_by_parts" "algebra/sign_by_proof"))
 
 (defun algebra-names-of (e) (cdr ($listofvars e)))
 
@@ -39,6 +40,10 @@
   (let ((powers (algebra-powers-in e x)))
     (and powers (<= (length powers) 200) (every #'algebra-rational-number powers))))
 
+(defun algebra-numbers-of (e x)
+  "The rational coefficients of E, highest power first."
+  (reverse (mapcar #'algebra-rational-number (algebra-powers-in e x))))
+
 (defun algebra-range (x)
   "Four values: the largest known lower bound of X and whether it is left out, and the same above;
 nil where there is none."
@@ -64,10 +69,10 @@ nil where there is none."
 
 (defun algebra-sign-between (e x low low-open high high-open)
   "The sign of the polynomial E in X between the bounds, where it has no root there."
-  (let ((inner (algebra-roots-between e low high))
+  (let ((inner (algebra-real-roots-between (algebra-numbers-of e x) low high))
         (at-low (and low (algebra-number-sign-at e x low)))
         (at-high (and high (algebra-number-sign-at e x high))))
-    (when (and high (eq at-high '$zero)) (decf inner (algebra-root-multiplicity e x high)))
+    (when (and high (eq at-high '$zero)) (decf inner))
     (cond ((and low high (>= low high)) '$unknown)
           ((plusp inner) '$unknown)
           (t (let ((sign (algebra-number-sign-at e x (algebra-point-between low high))))
@@ -75,19 +80,6 @@ nil where there is none."
                        (and (not high-open) (eq at-high '$zero)))
                    (if (eq sign '$pos) '$pz '$nz)
                    sign))))))
-
-(defun algebra-roots-between (e low high)
-  "How many real roots E has in (LOW, HIGH], by Sturm's chain; exact."
-  (flet ((point (bound otherwise)
-           (if bound (cons (numerator bound) (denominator bound)) otherwise)))
-    (let ((varlist nil) ($keepfloat nil) ($ratfac nil))
-      (nroots (unipoly e e) (point low -1) (point high 1)))))
-
-(defun algebra-root-multiplicity (e x root)
-  (loop for k from 0
-        for slope = e then ($diff slope x)
-        while (eq '$zero (algebra-number-sign-at slope x root))
-        finally (return k)))
 
 (defun algebra-number-sign-at (e x number)
   (algebra-constant-sign (maxima-substitute (algebra-maxima-rational number) x e)))
@@ -98,8 +90,13 @@ nil where there is none."
         (high (1- high))
         (t 0)))
 
-;;; Facts put in. The polynomial, the facts as (table . sign), and the signs of all variables, the
-;;; last of which stand for the differences d, go down together.
+;;; Facts put in
+
+(defstruct (algebra-bounded (:predicate nil) (:copier nil))
+  table   ; the polynomial
+  gaps    ; the facts as (table . sign)
+  signs   ; of all variables, the last of which stand for the differences d
+  places) ; of the names that may still be put in
 
 (defparameter *algebra-shift-depth* 5 "How many facts may be put in, one after the other.")
 (defvar *algebra-shifts-left* 0 "How many more facts may be put in at all.")
@@ -123,12 +120,13 @@ nil where there is none."
                                              (algebra-part-sign kernel)))
                         kernels))
          (table (algebra-table-of e kernels))
-         (tables (loop for (gap . sign) in gaps
-                       collect (cons (algebra-table-of gap kernels) sign)))
-         (places (algebra-shift-places kernels))
+         (problem (make-algebra-bounded
+                   :table table :signs signs :places (algebra-shift-places kernels)
+                   :gaps (loop for (gap . sign) in gaps
+                               collect (cons (algebra-table-of gap kernels) sign))))
          (*algebra-shifts-left* (floor 10000 (+ 100 (* 10 (hash-table-count table))))))
     (loop for depth from 1 to (min *algebra-shift-depth* (length gaps))
-          for sign = (algebra-shift table tables signs places depth)
+          for sign = (algebra-shift problem depth)
           unless (eq sign '$unknown) return sign
           finally (return '$unknown))))
 
@@ -172,20 +170,17 @@ nil where there is none."
     (($pz $nz) '$pz)
     (t sign)))
 
-(defun algebra-shift (table gaps signs places depth)
-  "The sign of TABLE with DEPTH of the GAPS put in at most."
-  (let ((sign (algebra-table-sign table signs)))
+(defun algebra-shift (problem depth)
+  "The sign of the polynomial with DEPTH of the facts put in at most."
+  (let* ((table (algebra-bounded-table problem))
+         (sign (algebra-table-sign table (algebra-bounded-signs problem))))
     (if (or (not (eq sign '$unknown)) (zerop depth) (minusp (decf *algebra-shifts-left*))
             (> (hash-table-count table) 500))
         sign
-        (loop for gap in gaps
-              do (dolist (place places)
-                   (let ((slope (algebra-gap-slope table (car gap) place signs)))
-                     (when slope
-                       (let ((sign (algebra-shift-by table place gap slope
-                                                     (remove gap gaps :test #'eq)
-                                                     signs places depth)))
-                         (unless (eq sign '$unknown) (return-from algebra-shift sign))))))
+        (loop for gap in (algebra-bounded-gaps problem)
+              do (dolist (place (algebra-bounded-places problem))
+                   (let ((sign (algebra-shift-by problem gap place depth)))
+                     (unless (eq sign '$unknown) (return-from algebra-shift sign))))
               finally (return '$unknown)))))
 
 (defun algebra-gap-slope (table gap place signs)
@@ -198,23 +193,37 @@ in TABLE; else nil."
        (let ((slope (algebra-table-coefficient gap place 1)))
          (and (member (algebra-table-sign slope signs) '($pos $neg)) slope))))
 
-(defun algebra-shift-by (table place gap slope others signs places depth)
-  "The sign of TABLE with x = (d - u)/c from the GAP c*x + u = d, c the SLOPE."
-  (let* ((slot (- (length signs) depth))
+(defun algebra-shift-by (problem gap place depth)
+  "The sign with x = (d - u)/c from the GAP c*x + u = d, x the variable at PLACE, where the sign of
+c is known."
+  (let ((slope (algebra-gap-slope (algebra-bounded-table problem) (car gap) place
+                                  (algebra-bounded-signs problem))))
+    (if (null slope)
+        '$unknown
+        (multiple-value-bind (shifted turned)
+            (algebra-shifted-problem problem gap place slope depth)
+          (let ((sign (algebra-shift shifted (1- depth))))
+            (if turned (algebra-opposite-sign sign) sign))))))
+
+(defun algebra-shifted-problem (problem gap place slope depth)
+  "What is left with x put in, each table times a power of c = SLOPE; whether the sign has turned."
+  (let* ((signs (algebra-bounded-signs problem))
+         (slot (- (length signs) depth))
          (value (algebra-table-sum (algebra-difference gap slot)
                                    (algebra-table-coefficient (car gap) place 0) -1))
-         (turned (eq (algebra-table-sign slope signs) '$neg))
-         (signs (substitute-if (cdr gap) (constantly t) signs :start slot :end (1+ slot))))
-    (flet ((put-in (table sign)
-             (cons (algebra-table-put-in table place value slope)
-                   (if (and turned (oddp (algebra-table-degree-in table place)))
-                       (algebra-opposite-sign sign)
-                       sign))))
-      (destructuring-bind (put . sense) (put-in table '$pos)
-        (let ((sign (algebra-shift put
-                                   (loop for (other . sign) in others collect (put-in other sign))
-                                   signs (remove place places) (1- depth))))
-          (if (eq sense '$pos) sign (algebra-opposite-sign sign)))))))
+         (negative (eq (algebra-table-sign slope signs) '$neg)))
+    (labels ((turned-p (table)
+               (and negative (oddp (algebra-table-degree-in table place))))
+             (put-in (table) (algebra-table-put-in table place value slope))
+             (put-in-gap (gap)
+               (cons (put-in (car gap))
+                     (if (turned-p (car gap)) (algebra-opposite-sign (cdr gap)) (cdr gap)))))
+      (values (make-algebra-bounded
+               :table (put-in (algebra-bounded-table problem))
+               :gaps (mapcar #'put-in-gap (remove gap (algebra-bounded-gaps problem) :test #'eq))
+               :signs (substitute-if (cdr gap) (constantly t) signs :start slot :end (1+ slot))
+               :places (remove place (algebra-bounded-places problem)))
+              (turned-p (algebra-bounded-table problem))))))
 
 (defun algebra-difference (gap slot)
   "The new variable d of the GAP as a table, none where the gap is zero."

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size"))
+  (core-require "algebra/common"))
 
 ;;; Terms and factors of an expanded expression
 

@@ -143,3 +143,118 @@
 
 (defun algebra-program-sum (elements)
   (reduce #'algebra-program-add elements :initial-value 0))
+
+;;; Functions beside sine, cosine and square root, each an operation of its own. One row says all
+;;; that a program knows of a function: its value in double-float numbers, its value at 0, whether
+;;; it is odd or even, and its derivative,
+;;;     exp' = exp, log' = 1/x, asin' = 1/sqrt(1 - x^2), atan' = 1/(1 + x^2), tanh' = 1 - tanh^2,
+;;; powers with other than whole exponents, atan2(y,x)' = (x y' - y x')/(x^2 + y^2), |x|' = sign x.
+
+(defstruct algebra-function
+  operation operator ; the keyword in nodes, and Maxima's operator
+  doubles            ; function of double-float numbers
+  at-zero            ; exact value at 0, or nil
+  parity             ; :odd, :even or nil
+  slopes)            ; function of the node and its parts: the derivatives by the parts
+
+(defvar *algebra-functions* '() "The rows of all functions, filled below.")
+
+(defun algebra-function-of (operation)
+  (find operation *algebra-functions* :key #'algebra-function-operation))
+
+(defun algebra-function-named (operator)
+  (and operator (find operator *algebra-functions* :key #'algebra-function-operator)))
+
+(defun algebra-program-function (operation x)
+  "The function OPERATION of one argument X, a sign drawn outwards where it is odd or even."
+  (let ((row (algebra-function-of operation)))
+    (cond ((and (eql x 0) (algebra-function-at-zero row)))
+          ((and (algebra-function-parity row) (algebra-opposite x))
+           (let ((node (algebra-program-function operation (algebra-opposite x))))
+             (if (eq (algebra-function-parity row) :odd) (algebra-program-negate node) node)))
+          (t (algebra-make-node operation x)))))
+
+(defun algebra-opposite (x)
+  "-X where that is the simpler of the two, or nil."
+  (cond ((numberp x) (and (minusp x) (- x)))
+        ((algebra-operation-p :negate x) (algebra-node-left x))))
+
+(defun algebra-program-general-power (x y)
+  "X to the power Y, any elements."
+  (cond ((integerp y) (algebra-program-power x y))
+        ((and (rationalp y) (= (denominator y) 2))
+         (algebra-program-power (algebra-program-root x) (numerator y)))
+        ((and (rationalp y) (minusp y))
+         (algebra-program-divide 1 (algebra-program-general-power x (- y))))
+        (t (algebra-make-node :power x y))))
+
+(defun algebra-program-polar-angle (y x) (algebra-make-node :polar-angle y x))
+
+(defun algebra-program-extreme (x y sign)
+  "(x + y + SIGN |x - y|)/2: the greater of X and Y for 1, the lesser for -1."
+  (let ((distance (algebra-program-function :absolute (algebra-program-subtract x y))))
+    (algebra-program-multiply
+     1/2 (algebra-program-add (algebra-program-add x y)
+                              (algebra-program-multiply sign distance)))))
+
+;;; Derivatives.
+
+(defun algebra-one-minus-square (x)
+  (algebra-program-subtract 1 (algebra-program-multiply x x)))
+
+(defun algebra-inverse-root (x)
+  (algebra-program-divide 1 (algebra-program-root x)))
+
+(defun algebra-power-slopes (node x y)
+  (list (algebra-program-multiply
+         y (algebra-program-general-power x (algebra-program-subtract y 1)))
+        (if (numberp y)
+            0
+            (algebra-program-multiply node (algebra-program-function :logarithm x)))))
+
+(defun algebra-polar-slopes (node y x)
+  (declare (ignore node))
+  (let ((square (algebra-program-add (algebra-program-multiply x x)
+                                     (algebra-program-multiply y y))))
+    (list (algebra-program-divide x square)
+          (algebra-program-negate (algebra-program-divide y square)))))
+
+(defun algebra-row (operation operator doubles at-zero parity slopes)
+  (make-algebra-function :operation operation :operator operator :doubles doubles :at-zero at-zero
+                         :parity parity :slopes slopes))
+
+(defmacro algebra-slope (expression)
+  "The derivative of a function of one argument X, NODE being its value."
+  `(lambda (node x y) (declare (ignorable node x y)) (list ,expression)))
+
+(setq
+ *algebra-functions*
+ (list
+  (algebra-row :exponential nil #'cl:exp 1 nil (algebra-slope node))
+  (algebra-row :logarithm '%log #'cl:log nil nil (algebra-slope (algebra-program-divide 1 x)))
+  (algebra-row :arcsine '%asin #'cl:asin 0 :odd
+               (algebra-slope (algebra-inverse-root (algebra-one-minus-square x))))
+  (algebra-row :arccosine '%acos #'cl:acos nil nil
+               (algebra-slope (algebra-program-negate
+                                (algebra-inverse-root (algebra-one-minus-square x)))))
+  (algebra-row :arctangent '%atan #'cl:atan 0 :odd
+               (algebra-slope (algebra-program-divide
+                                1 (algebra-program-add 1 (algebra-program-multiply x x)))))
+  (algebra-row :hyperbolic-sine '%sinh #'cl:sinh 0 :odd
+               (algebra-slope (algebra-program-function :hyperbolic-cosine x)))
+  (algebra-row :hyperbolic-cosine '%cosh #'cl:cosh 1 :even
+               (algebra-slope (algebra-program-function :hyperbolic-sine x)))
+  (algebra-row :hyperbolic-tangent '%tanh #'cl:tanh 0 :odd
+               (algebra-slope (algebra-one-minus-square node)))
+  (algebra-row :absolute 'mabs #'cl:abs 0 :even (algebra-slope (algebra-program-function :sign x)))
+  (algebra-row :sign '%signum #'cl:signum 0 :odd (algebra-slope 0))
+  (algebra-row :power nil #'cl:expt nil nil #'algebra-power-slopes)
+  (algebra-row :polar-angle nil #'cl:atan nil nil #'algebra-polar-slopes)))
+
+;;; Values in double-float numbers.
+
+(defun algebra-function-of-doubles (operation &rest arguments)
+  (let ((value (apply (algebra-function-doubles (algebra-function-of operation)) arguments)))
+    (if (floatp value)
+        value
+        (core-error "a program takes the ~(~a~) of ~{~a~^ and ~}" operation arguments))))

@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/interval"))
+  (core-require "algebra/common" "algebra/interval"))
 
 ;;; Bounds: u and l in units of 2^-32, rounded up to 96 digits; m exact.
 

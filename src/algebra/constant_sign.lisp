@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/interval" "algebra/separation"))
+  (core-require "algebra/common" "algebra/interval" "algebra/separation_bound"))
 
 (defparameter *algebra-most-bits* 30000 "binary digits that are spent on the sign of a constant")
 

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/kernels" "algebra/reduction" "algebra/readable" "algebra/numbers"))
+  (core-require "algebra/kernels" "algebra/relations" "algebra/readable" "algebra/constant_sign"
+                "algebra/separation_bound"))
 
 (defun algebra-polynomial-test (p)
   (let ((unsure (algebra-unsure-kernels p)))
@@ -50,9 +51,9 @@
       (case (algebra-constant-verdict (simplify (pdisrep p)))
         (0 'zero)
         ((1 -1) 'not-zero)
-        (t (if (algebra-parts-vanish-p p) 'zero 'dependent)))))
+        (t (if (algebra-zero-parts-p p) 'zero 'dependent)))))
 
-(defun algebra-parts-vanish-p (p)
+(defun algebra-zero-parts-p (p)
   "P vanishes for every value of the transcendental constants in it."
   (let ((parts (list p)))
     (dolist (kernel (algebra-ring-kernels *algebra-ring*))
