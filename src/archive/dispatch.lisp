@@ -157,16 +157,17 @@ none."
              (cond ((archive-symbol-p part) (pushnew part names))
                    ((and (consp part) (consp (car part)) (archive-symbol-p (caar part)))
                     (pushnew (caar part) names)))))
-      (loop for value being the hash-values of (archive-call-given call)
-            do (archive-map-parts #'note value))
+      (loop for name being the hash-keys of (archive-call-given call) using (hash-value value)
+            do (unless (archive-word-key-p name) (archive-map-parts #'note value)))
       (when (archive-call-archive call)
         (dolist (entry (cdr (archive-description (archive-call-archive call))))
-          (unless (archive-word-entry-p entry) (archive-map-parts #'note entry)))))
+          (unless (archive-word-key-p (archive-key-text (second entry)))
+            (archive-map-parts #'note entry)))))
     names))
 
-(defun archive-word-entry-p (entry)
-  "Whether the value of ENTRY is a word of ours, such as field = constant, and no name."
-  (member (cadr entry) '($kind $field $sign $algebra)))
+(defun archive-word-key-p (name)
+  "Whether the value of the key NAME is a word of ours, such as field = constant, and no name."
+  (member name '("kind" "field" "sign" "algebra") :test #'equal))
 
 (defun archive-run (call)
   "The value of the call's target, computed in the guard; new steps are saved."
