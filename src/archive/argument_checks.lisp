@@ -113,6 +113,8 @@
                             (check key (cdr value))
                             (look section key value))))
              (look (section key value)
+               (when (archive-occurs-p '$%i value)
+                 (core-fault section key "~a: ~a" (archive-key-text key) *archive-wanted-real*))
                (archive-check-spellings
                 (archive-without-functions own value) moving
                 (lambda (text) (core-fault section key "~a: ~a" (archive-key-text key) text)))))
@@ -221,8 +223,10 @@ others."
 
 ;;; All of a call
 
-(defparameter *archive-real-arguments*
-  '("Lagrangian" "K" "MixedPotential" "equations" "integrals" "solution" "rayleigh" "forces"))
+(defparameter *archive-complex-arguments* '("expression" "motion" "program" "file" "language")
+  "Arguments that may be complex, or are no formulas.")
+
+(defparameter *archive-wanted-real* "found %i; real expressions are wanted")
 
 (defun archive-given-pairs (given)
   "The table GIVEN as a list (name . value), in one order on every Lisp."
@@ -233,14 +237,13 @@ others."
 ;; A special case is one of parameters: it is put in after the derivatives have been taken
 
 (defun archive-check-special-case (where moving fault)
-  "Calls FAULT with a text where the list WHERE says that a parameter is what moves."
+  "Calls FAULT with a text where the list WHERE says that something is what moves."
   (dolist (equation (cdr where))
-    (destructuring-bind (name value) (cdr equation)
-      (let ((x (and (not (member name moving :test #'equal))
-                    (find-if (lambda (x) (archive-occurs-p x value)) moving))))
+    (destructuring-bind (left value) (cdr equation)
+      (let ((x (find-if (lambda (x) (archive-occurs-p x value)) moving)))
         (when x
           (funcall fault (format nil "the value of ~a contains ~a, which moves; write it into the ~
-                                      equations" (archive-argument-shown name)
+                                      equations" (archive-argument-shown left)
                                  (archive-argument-shown x))))))))
 
 ;; Signs and zeros are those of real names
@@ -258,10 +261,9 @@ others."
    value))
 
 (defun archive-check-real (name value)
-  (when (and (member name *archive-real-arguments* :test #'string=)
+  (when (and (not (member name *archive-complex-arguments* :test #'string=))
              (archive-occurs-p '$%i value))
-    (core-error "~a: found %i in ~a; real expressions are wanted" name
-                (archive-argument-shown value))))
+    (core-error "~a: ~a: ~a" name *archive-wanted-real* (archive-argument-shown value))))
 
 (defun archive-check-arguments (given kind &optional moving)
   "An error for the first of the arguments and options GIVEN, a table, that a call of KIND cannot
@@ -283,3 +285,28 @@ take; MOVING are the names that move in the archive of the call."
   (archive-check-potential given)
   (archive-check-integrals given)
   (archive-check-options-used given))
+
+;;; What the session makes depend on the time
+
+(defun archive-listed-names (arguments)
+  "Names that stand in lists, by themselves or on the left of an equation: what moves is one."
+  (loop for argument in arguments
+        when (archive-list-p argument)
+          append (loop for item in (cdr argument)
+                       collect (if (archive-equation-p item) (cadr item) item))))
+
+(defun archive-check-depends (arguments)
+  "An error for a name of ARGUMENTS that depends(name, t) makes move: derivatives are taken without
+that, and its terms would be missing. Coordinates may have it."
+  (let ((moving (append (archive-listed-names arguments)
+                        (loop for argument in arguments
+                              append (archive-differentiated-names argument)))))
+    (dolist (argument arguments)
+      (archive-map-parts
+       (lambda (part)
+         (when (and (archive-symbol-p part) (member '$t (mget part 'depends))
+                    (not (member part moving)))
+           (core-error "~a depends on t by depends(~a, t), which is not used here; write ~a(t) for ~
+                        a function of the time" (archive-argument-shown part)
+                       (archive-argument-shown part) (archive-argument-shown part))))
+       argument))))

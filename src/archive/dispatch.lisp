@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/names" "archive/exact" "archive/steps"
-                "archive/options"))
+  (core-require "archive/argument_checks" "archive/call" "archive/names" "archive/exact"
+                "archive/steps" "archive/options"))
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
@@ -19,7 +19,9 @@
           *core-cheaper* (archive-cheaper name arguments)
           *core-size* (archive-size-factor arguments))
     (multiple-value-bind (value text)
-        (core-caught (lambda () (archive-in-time name arguments)))
+        (core-caught (lambda ()
+                       (archive-check-depends arguments)
+                       (archive-in-time name arguments)))
       (when text (merror "~A" text))
       (core-warn-now)
       value)))
