@@ -237,7 +237,17 @@ of another is kept for those that take it."
 (defun archive-derive-now (call name rule)
   (let ((inputs (archive-inputs call rule)))
     (core-progress "computing ~a" name)
-    (archive-derive rule inputs (archive-said call rule))))
+    (archive-assuming call name
+                      (lambda () (archive-derive rule inputs (archive-said call rule))))))
+
+(defun archive-assuming (call name function)
+  "Calls FUNCTION, which derives NAME; of a public step what its kind of archive assumes holds, the
+quantity `assumptions'."
+  (let ((assumed (and (gethash name *core-publics*) (archive-rule call "assumptions")
+                      (cdr (archive-value call "assumptions")))))
+    (if assumed
+        (core-with-facts (append assumed (core-facts)) function)
+        (funcall function))))
 
 (defun archive-said (call rule)
   "What was said when the inputs of RULE that are no public steps were derived."

@@ -10,6 +10,7 @@
 
 (core-middle "circuit" '("circuit") "circuits/circuit" "circuits_circuit" "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_network" "circuit")
+(core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 
 (core-public "PotentialParts" :kinds '("circuit"))
