@@ -15,7 +15,7 @@
 
 (defun algebra-without-fractions (numbers)
   "Rational NUMBERS of Lisp times their least common denominator."
-  (let ((denominator (reduce #'lcm numbers :key #'denominator)))
+  (let ((denominator (reduce #'lcm numbers :key #'denominator :initial-value 1)))
     (mapcar (lambda (x) (* x denominator)) numbers)))
 
 (defun algebra-prime-factors (n)

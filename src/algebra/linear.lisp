@@ -89,8 +89,7 @@
 
 (defun algebra-unexpanded-solution (matrix right)
   (let* ((n (length right))
-         (minor (algebra-minors matrix #'algebra-first-row #'mul
-                                (lambda (terms) (addn terms nil))))
+         (minor (algebra-minors matrix #'algebra-first-row #'mul #'add))
          (determinant (funcall minor (algebra-all-of n) (algebra-all-of n))))
     (when (eql determinant 0) (core-error "the matrix of linear equations is singular"))
     (flet ((numerator (j)
@@ -109,7 +108,7 @@
                                (lambda (sign entry size)
                                  (declare (ignore sign))
                                  (+ 1 (algebra-size entry) size))
-                               (lambda (sizes) (reduce #'+ sizes)))))
+                               #'+)))
     (loop for j below n
           sum (+ (funcall size (algebra-all-of n) (algebra-all-of n))
                  (loop for b in right

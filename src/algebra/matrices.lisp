@@ -97,22 +97,21 @@
 
 ;;; Monomials of rows and columns.
 
-(defun algebra-row-contents (matrix)
-  "Divide MATRIX in place by the contents of its rows; these are returned."
-  (let ((n (array-dimension matrix 0)))
-    (loop for i below n
-          collect (let ((content (algebra-common-monomial-of
-                                  (loop for j below n collect (aref matrix i j)))))
-                    (dotimes (j n content)
-                      (setf (aref matrix i j) (algebra-divided (aref matrix i j) content)))))))
+(defun algebra-row-contents (matrix) (algebra-contents matrix t))
 
-(defun algebra-column-contents (matrix)
+(defun algebra-column-contents (matrix) (algebra-contents matrix nil))
+
+(defun algebra-contents (matrix of-rows)
+  "Divide MATRIX in place by the contents of its rows, or of its columns; these are returned."
   (let ((n (array-dimension matrix 0)))
-    (loop for j below n
-          collect (let ((content (algebra-common-monomial-of
-                                  (loop for i below n collect (aref matrix i j)))))
-                    (dotimes (i n content)
-                      (setf (aref matrix i j) (algebra-divided (aref matrix i j) content)))))))
+    (flet ((entry (line k) (if of-rows (aref matrix line k) (aref matrix k line)))
+           (put-entry (p line k)
+             (if of-rows (setf (aref matrix line k) p) (setf (aref matrix k line) p))))
+      (loop for line below n
+            collect (let ((content (algebra-common-monomial-of
+                                    (loop for k below n collect (entry line k)))))
+                      (dotimes (k n content)
+                        (put-entry (algebra-divided (entry line k) content) line k)))))))
 
 (defun algebra-common-monomial-of (polynomials)
   "The common monomial of POLYNOMIALS, zeros left aside, as a polynomial."

@@ -14,31 +14,34 @@
 
 ;;; The expansion. Sets of rows and of columns are bits of integers.
 
-(defun algebra-minors (matrix row term sum)
-  "The function of a set of rows and a set of columns that gives their minor: SUM of the list of
-TERMs of sign, element and smaller minor; 1 where the sets are empty, 0 where there are no terms.
-ROW takes from a set of rows the one to expand by."
+(defun algebra-minors (matrix row times plus &optional (made #'identity))
+  "The function of a set of rows and a set of columns that gives their minor: MADE of the sum by
+PLUS of the products by TIMES of sign, element and smaller minor; 1 where the sets are empty, 0
+where there are no products.  ROW takes from a set of rows the one to expand by."
   (let ((known (make-hash-table :test #'eql)) (m (array-dimension matrix 1)))
     (labels ((minor (rows columns)
                (if (zerop rows)
                    1
                    (let ((key (logior (ash rows m) columns)))
                      (or (gethash key known)
-                         (setf (gethash key known) (expanded rows columns))))))
-             (expanded (rows columns)
-               (let* ((i (funcall row rows))
-                      (terms (terms i (logxor rows (ash 1 i)) columns)))
-                 (if terms (funcall sum terms) 0)))
-             (terms (i rows columns)
-               (loop with sign = (if (evenp (logcount (logand rows (1- (ash 1 i))))) 1 -1)
-                     for j below m
-                     for entry = (aref matrix i j)
-                     for smaller = (and (logbitp j columns) (not (eql entry 0))
-                                        (minor rows (logxor columns (ash 1 j))))
-                     unless (member smaller '(nil 0))
-                       collect (funcall term sign entry smaller)
-                     do (when (logbitp j columns) (setq sign (- sign))))))
+                         (setf (gethash key known) (expanded rows columns (funcall row rows)))))))
+             (expanded (rows columns i)
+               (let ((others (logxor rows (ash 1 i))) (sum nil) (sign (algebra-row-sign i rows)))
+                 (dotimes (j m (if sum (funcall made sum) 0))
+                   (when (logbitp j columns)
+                     (let ((product (product i j others columns sign)))
+                       (when product (setq sum (if sum (funcall plus sum product) product))))
+                     (setq sign (- sign))))))
+             (product (i j others columns sign)
+               (let ((entry (aref matrix i j)))
+                 (unless (eql entry 0)
+                   (let ((smaller (minor others (logxor columns (ash 1 j)))))
+                     (unless (eql smaller 0) (funcall times sign entry smaller)))))))
       #'minor)))
+
+(defun algebra-row-sign (i rows)
+  "The sign of an expansion by row I, one of ROWS."
+  (if (evenp (logcount (logand rows (algebra-all-of i)))) 1 -1))
 
 (defun algebra-last-row (rows) (1- (integer-length rows)))
 
@@ -55,8 +58,8 @@ ROW takes from a set of rows the one to expand by."
 (defun algebra-polynomial-minors (matrix)
   (algebra-minors matrix #'algebra-last-row
                   (lambda (sign entry minor) (algebra-guarded-times (ptimes sign entry) minor))
-                  (lambda (products)
-                    (algebra-counted-minor (algebra-reduce-angles (reduce #'pplus products))))))
+                  #'pplus
+                  (lambda (sum) (algebra-counted-minor (algebra-reduce-angles sum)))))
 
 (defun algebra-counted-minor (minor)
   (incf *algebra-minor-terms* (algebra-monomials minor))

@@ -101,8 +101,7 @@ of some three times its length."
     (destructuring-bind (minors elimination) (forms-nested-sizes rows b)
       (algebra-guard (min minors elimination) "this quadratic form in the momenta")
       (if (< minors (* 2 elimination))
-          (forms-quotient-of-minors entries b #'mul (lambda (terms) (addn terms nil))
-                                    (lambda (x y) (div x (mul 2 y))))
+          (forms-quotient-of-minors entries b #'mul #'add (lambda (x y) (div x (mul 2 y))))
           (forms-by-elimination rows b)))))
 
 (defun forms-nested-sizes (rows b)
@@ -112,7 +111,7 @@ of some three times its length."
          (b (mapcar #'algebra-size b)))
     (flet ((sum (&rest sizes) (apply #'+ (mapcar #'abs sizes))))
       (list (forms-quotient-of-minors (algebra-rectangle rows) b
-                                      #'sum (lambda (sizes) (apply #'sum sizes)) #'sum)
+                                      #'sum #'sum #'sum)
             (destructuring-bind (rows b) (forms-smallest-first rows rows b)
               (forms-elimination rows b #'sum
                                  (lambda (e factor x pivot same)
@@ -160,18 +159,18 @@ of some three times its length."
                           collect (less y factor (car b) nil))
                     add less over))))))
 
-(defun forms-quotient-of-minors (entries b times sum over)
-  "The SUM of b_i b_j C_ij OVER the determinant, in the arithmetic of TIMES and SUM."
-  (let* ((n (array-dimension entries 0))
-         (minor (algebra-minors entries #'algebra-first-row times sum))
-         (terms (loop for i from 0
-                      for (b-i . others) on b
-                      append (loop for j from i
-                                   for b-j in (cons b-i others)
-                                   for c = (funcall minor (algebra-all-but i n)
-                                                    (algebra-all-but j n))
-                                   unless (eql c 0)
-                                     collect (funcall times
-                                                      (* (if (= i j) 1 2) (if (evenp (+ i j)) 1 -1))
-                                                      b-i b-j c)))))
-    (funcall over (funcall sum terms) (funcall minor (algebra-all-of n) (algebra-all-of n)))))
+(defun forms-quotient-of-minors (entries b times plus over)
+  "The sum of b_i b_j C_ij OVER the determinant, in the arithmetic of TIMES and PLUS."
+  (let* ((n (array-dimension entries 0)) (sum 0)
+         (minor (algebra-minors entries #'algebra-first-row times plus)))
+    (loop for i from 0
+          for (b-i . others) on b
+          do (loop for j from i
+                   for b-j in (cons b-i others)
+                   for c = (funcall minor (algebra-all-but i n) (algebra-all-but j n))
+                   unless (eql c 0)
+                     do (setq sum (funcall plus sum
+                                           (funcall times
+                                                    (* (if (= i j) 1 2) (if (evenp (+ i j)) 1 -1))
+                                                    b-i b-j c)))))
+    (funcall over sum (funcall minor (algebra-all-of n) (algebra-all-of n)))))
