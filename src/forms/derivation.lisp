@@ -87,7 +87,7 @@
   (loop for variable in (forms-derivation-velocities derivation)
         collect (forms-by-variable momentum variable)))
 
-(defun forms-right-side (momentum slope velocity force derivation)
+(defun forms-ring-right-side (momentum slope velocity force derivation)
   "dL/dq - dp/dt + Q - dR/dq', the accelerations left out."
   (algebra-sum
    (list (algebra-derivative (forms-derivation-function derivation) slope)
@@ -95,17 +95,17 @@
          (forms-minus (forms-by-variable (forms-derivation-dissipation derivation) velocity))
          force)))
 
-(defun forms-right-sides (momenta derivation)
+(defun forms-ring-right-sides (momenta derivation)
   (loop for momentum in momenta
         for slope in (forms-derivation-slopes derivation)
         for velocity in (forms-derivation-velocities derivation)
         for force in (forms-derivation-forces derivation)
-        collect (forms-right-side momentum slope velocity force derivation)))
+        collect (forms-ring-right-side momentum slope velocity force derivation)))
 
 (defun forms-ring-equations (derivation)
   (let ((momenta (forms-momenta derivation)))
     (loop for momentum in momenta
-          for right in (forms-right-sides momenta derivation)
+          for right in (forms-ring-right-sides momenta derivation)
           collect (algebra-sum
                    (cons (forms-minus right)
                          (loop for inertia in (forms-inertia momentum derivation)
@@ -171,7 +171,7 @@ long."
              (cons '($matrix simp)
                    (loop for momentum in momenta
                          collect (forms-written (forms-inertia momentum derivation))))
-             (forms-written (forms-right-sides momenta derivation)))))))
+             (forms-written (forms-ring-right-sides momenta derivation)))))))
 
 (defun $forms_ring_quadratics (function q v)
   "[A, a, A0] of FUNCTION = v.A.v/2 + a.v + A0; false where the ring does not serve or it is no such
@@ -187,16 +187,17 @@ sum."
     (when (every (lambda (row) (forms-free-of-p row variables)) inertia)
       (list '(mlist simp)
             (cons '($matrix simp) (mapcar #'forms-written inertia))
-            (forms-written (forms-at-rest momenta variables))
-            (cadr (forms-written (forms-at-rest (list (forms-derivation-function derivation))
-                                                variables)))))))
+            (forms-written (forms-without-velocities momenta variables))
+            (cadr (forms-written
+                   (forms-without-velocities (list (forms-derivation-function derivation))
+                                             variables)))))))
 
 (defun forms-free-of-p (quotients variables)
   (notany (lambda (quotient)
             (some (lambda (variable) (algebra-occurs-p variable (car quotient))) variables))
           quotients))
 
-(defun forms-at-rest (quotients variables)
+(defun forms-without-velocities (quotients variables)
   (loop for (p . d) in quotients
         do (dolist (variable variables) (setq p (pcsubsty 0 variable p)))
         collect (cons p d)))
