@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What acts on a system beside Lagrange's function, and how its equations are wanted. `rayleigh'
-;;; is R with the force -dR/dq', `forces' a list of Q_i or [] for none, `constraints' equations
-;;; f(q,t) = 0, `nonholonomic' equations linear in the velocities.
+;;; What acts on a system beside Lagrange's function, how its equations are wanted, what they are
+;;; derived from, and what is left of it by Routh's reduction. `rayleigh' is R with the force
+;;; -dR/dq', `forces' a list of Q_i or [] for none, `constraints' equations f(q,t) = 0,
+;;; `nonholonomic' equations linear in the velocities.
 
 (in-package :maxima)
 
@@ -15,6 +16,21 @@
   "How equations are wanted: common factors divided out, written by Christoffel's symbols, without
 multipliers; the form of expressions."
   (simplify nil) (expanded nil) (eliminate nil) (form '$auto))
+
+(core-record forms-system
+  "In plain symbols, see motion.mac: L or another function, Rayleigh's function, a force for each
+coordinate."
+  function dissipation forces)
+
+(core-record forms-reduction
+  "What Routh's reduction gives: the coordinates, the cyclic ones' momenta, the function R of the
+others, the cyclic velocities as equations."
+  cyclic remaining momenta function velocities)
+
+(defun $forms_system_expressions (system)
+  "[L, R, [Q_1, ..]]."
+  (list '(mlist simp) (forms-system-function system) (forms-system-dissipation system)
+        (forms-system-forces system)))
 
 (defun $forms_all_constraints (actions)
   "Holonomic ones first."

@@ -11,7 +11,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/derivatives" "algebra/shortest_forms" "forms/bound"))
+  (core-require "algebra/derivatives" "algebra/evaluate" "algebra/general_form" "algebra/kernels"
+                "algebra/normal" "algebra/quotient" "algebra/relations" "algebra/scan"
+                "algebra/shortest_forms" "algebra/size" "forms/actions" "forms/exchange"))
 
 (defstruct forms-derivation
   function dissipation forces ; L, Rayleigh's function, the forces: quotients
@@ -19,13 +21,13 @@
   drift                       ; the rates of the kernels with time, accelerations left out
   velocities accelerations)   ; variables of the ring
 
-(defun forms-derivation-of (plain q v a)
-  "L, Rayleigh's function and the forces in PLAIN symbols, read; nil where they are not served."
+(defun forms-derivation-of (system q v a)
+  "SYSTEM, read; nil where it is not served."
   (when (every #'symbolp q)
-    (forms-read-derivation plain q v a)))
+    (forms-read-derivation (cdr ($forms_system_expressions system)) q v a)))
 
-(defun forms-read-derivation (plain q v a)
-  (destructuring-bind (function dissipation forces) plain
+(defun forms-read-derivation (expressions q v a)
+  (destructuring-bind (function dissipation forces) expressions
     (let* ((skeletons (mapcar #'algebra-scan (list* function dissipation (cdr forces))))
            (velocities (mapcar #'algebra-scan v))
            (accelerations (mapcar #'algebra-scan a))
@@ -85,7 +87,7 @@
   (loop for variable in (forms-derivation-velocities derivation)
         collect (forms-by-variable momentum variable)))
 
-(defun forms-right-side (momentum slope velocity force derivation)
+(defun forms-ring-right-side (momentum slope velocity force derivation)
   "dL/dq - dp/dt + Q - dR/dq', the accelerations left out."
   (algebra-sum
    (list (algebra-derivative (forms-derivation-function derivation) slope)
@@ -93,17 +95,17 @@
          (forms-minus (forms-by-variable (forms-derivation-dissipation derivation) velocity))
          force)))
 
-(defun forms-right-sides (momenta derivation)
+(defun forms-ring-right-sides (momenta derivation)
   (loop for momentum in momenta
         for slope in (forms-derivation-slopes derivation)
         for velocity in (forms-derivation-velocities derivation)
         for force in (forms-derivation-forces derivation)
-        collect (forms-right-side momentum slope velocity force derivation)))
+        collect (forms-ring-right-side momentum slope velocity force derivation)))
 
 (defun forms-ring-equations (derivation)
   (let ((momenta (forms-momenta derivation)))
     (loop for momentum in momenta
-          for right in (forms-right-sides momenta derivation)
+          for right in (forms-ring-right-sides momenta derivation)
           collect (algebra-sum
                    (cons (forms-minus right)
                          (loop for inertia in (forms-inertia momentum derivation)
@@ -126,22 +128,21 @@
          (expt (forms-terms (cadr e)) (caddr e)))
         (t 1)))
 
-(defun forms-in-ring (plain q v a back function)
-  "FUNCTION of the derivation, BACK's names being written; nil where L is not served, too-large
-where it is too long."
-  (if (> (forms-terms plain) *forms-ring-limit*)
-      'too-large
-      (forms-in-small-ring plain q v a back function)))
+(defun forms-in-ring (system q v a back function)
+  "FUNCTION of the derivation, BACK's names being written; nil where SYSTEM is not served or too
+long."
+  (when (<= (forms-terms ($forms_system_expressions system)) *forms-ring-limit*)
+    (let ((found (catch 'algebra-too-large
+                   (let ((*algebra-may-give-up* t) (*algebra-limit* *forms-ring-limit*))
+                     (with-algebra-ring
+                       (forms-of-derivation (forms-derivation-of system (cdr q) (cdr v) (cdr a))
+                                            (append (cdr v) (cdr a)) back function))))))
+      (unless (eq found 'too-large) found))))
 
-(defun forms-in-small-ring (plain q v a back function)
-  (catch 'algebra-too-large
-    (let ((*algebra-may-give-up* t) (*algebra-limit* *forms-ring-limit*))
-      (with-algebra-ring
-        (let ((derivation (forms-derivation-of (cdr plain) (cdr q) (cdr v) (cdr a))))
-          (when derivation
-            (forms-rename-kernels back)
-            (let ((*algebra-velocities* (append (cdr v) (cdr a))))
-              (funcall function derivation))))))))
+(defun forms-of-derivation (derivation velocities back function)
+  (when derivation
+    (forms-rename-kernels back)
+    (let ((*algebra-velocities* velocities)) (funcall function derivation))))
 
 (defun forms-rename-kernels (back)
   "Kernels are written with the right sides of BACK in place of their left sides."
@@ -155,52 +156,48 @@ where it is too long."
         (mapcar (lambda (quotient) (algebra-collected-reduced (algebra-cancel quotient)))
                 quotients)))
 
-(defun forms-unless-too-large (value)
-  (if (eq value 'too-large) nil value))
-
-(defun $forms_ring_equations (plain q v a back)
+(defun $forms_ring_equations (system q v a back)
   "[e_1, ..]; false where the ring does not serve."
-  (forms-unless-too-large
-   (forms-in-ring plain q v a back
-                  (lambda (derivation) (forms-written (forms-ring-equations derivation))))))
+  (forms-in-ring system q v a back
+                 (lambda (derivation) (forms-written (forms-ring-equations derivation)))))
 
-(defun $forms_ring_mass_form (plain q v a back)
+(defun $forms_ring_mass_form (system q v a back)
   "[M, f]; false where the ring does not serve."
-  (forms-unless-too-large
-   (forms-in-ring
-    plain q v a back
-    (lambda (derivation)
-      (let ((momenta (forms-momenta derivation)))
-        (list '(mlist simp)
-              (cons '($matrix simp)
-                    (loop for momentum in momenta
-                          collect (forms-written (forms-inertia momentum derivation))))
-              (forms-written (forms-right-sides momenta derivation))))))))
+  (forms-in-ring
+   system q v a back
+   (lambda (derivation)
+     (let ((momenta (forms-momenta derivation)))
+       (list '(mlist simp)
+             (cons '($matrix simp)
+                   (loop for momentum in momenta
+                         collect (forms-written (forms-inertia momentum derivation))))
+             (forms-written (forms-ring-right-sides momenta derivation)))))))
 
-(defun $forms_ring_quadratics (plain q v)
-  "[A, a, A0] of L = v.A.v/2 + a.v + A0; false where the ring does not serve or L is no such sum."
-  (forms-unless-too-large
-   (forms-in-ring plain q v '((mlist simp)) '((mlist simp))
-                  (lambda (derivation)
-                    (let* ((momenta (forms-momenta derivation))
-                           (inertia (loop for momentum in momenta
-                                          collect (forms-inertia momentum derivation)))
-                           (variables (forms-derivation-velocities derivation)))
-                      (when (every (lambda (row) (forms-free-of-p row variables)) inertia)
-                        (list '(mlist simp)
-                              (cons '($matrix simp) (mapcar #'forms-written inertia))
-                              (forms-written (forms-at-rest momenta variables))
-                              (cadr (forms-written
-                                     (forms-at-rest
-                                      (list (forms-derivation-function derivation))
-                                      variables))))))))))
+(defun $forms_ring_quadratics (function q v)
+  "[A, a, A0] of FUNCTION = v.A.v/2 + a.v + A0; false where the ring does not serve or it is no such
+sum."
+  (forms-in-ring (make-forms-system :function function :dissipation 0 :forces *forms-none*)
+                 q v *forms-none* *forms-none* #'forms-ring-quadratics))
+
+(defun forms-ring-quadratics (derivation)
+  (let* ((momenta (forms-momenta derivation))
+         (variables (forms-derivation-velocities derivation))
+         (inertia (loop for momentum in momenta
+                        collect (forms-inertia momentum derivation))))
+    (when (every (lambda (row) (forms-free-of-p row variables)) inertia)
+      (list '(mlist simp)
+            (cons '($matrix simp) (mapcar #'forms-written inertia))
+            (forms-written (forms-without-velocities momenta variables))
+            (cadr (forms-written
+                   (forms-without-velocities (list (forms-derivation-function derivation))
+                                             variables)))))))
 
 (defun forms-free-of-p (quotients variables)
   (notany (lambda (quotient)
             (some (lambda (variable) (algebra-occurs-p variable (car quotient))) variables))
           quotients))
 
-(defun forms-at-rest (quotients variables)
+(defun forms-without-velocities (quotients variables)
   (loop for (p . d) in quotients
         do (dolist (variable variables) (setq p (pcsubsty 0 variable p)))
         collect (cons p d)))

@@ -12,7 +12,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/minors" "algebra/linear" "forms/derivation"))
+  (core-require "algebra/evaluate" "algebra/kernels" "algebra/linear" "algebra/matrices"
+                "algebra/minors" "algebra/normal" "algebra/scan" "algebra/size" "algebra/zero"))
 
 (defun $forms_inverse_form (a b form)
   "b.A^-1.b/2 for a symmetric regular A."

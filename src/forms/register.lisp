@@ -40,7 +40,7 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("rayleigh" "forces")
   :kinds *forms-kinds*)
-(core-rule "MassForm" :any "forms/mass" "forms_mass_form"
+(core-rule "MassForm" :any "forms/lagrange" "forms_mass_form"
   "Lagrangian" "coordinates" "actions" '("form" $auto))
 
 (core-public "Quadratics"
@@ -142,13 +142,13 @@
 (core-public "ExportProgram"
   :forms '(("expressions" "program" "file"))
   :options '("language" "replace"))
-(core-rule "ExportProgram" :any "forms/export_program" "forms_export_program" "program" "file"
+(core-rule "ExportProgram" :any "forms/equation_program" "forms_export_program" "program" "file"
   '("language" $c) '("replace" nil))
 
 ;;; Poisson
 
 (core-rule "poisson_equations" '("poisson") "forms/poisson" "forms_poisson_equations"
   "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))) "hamiltonian")
-(core-rule "poisson_integrals" '("poisson") "forms/casimirs" "forms_poisson_integrals"
+(core-rule "poisson_integrals" '("poisson") "forms/poisson" "forms_poisson_integrals"
   "hamiltonian" '("integrals" ((mlist simp)))
   "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))))

@@ -1,14 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Values of expressions at a rational point, to 512 binary digits: whole numbers that count units
 ;;; of 2^-512. Sums that occur in several places are evaluated once. A name without a value gets a
-;;; rational one that its spelling decides, where the point is a random one; a function left open is
-;;; the polynomial of sample.lisp. Functions other than sine and cosine are left to Maxima's long
-;;; floats, once for each value. See forms-fixed-value first.
+;;; random one where the point is a random one; a function left open is a polynomial. Functions
+;;; other than sine and cosine are left to Maxima's long floats, once for each value. A derivative
+;;; that Maxima carries out is a formula; else, as of max(x,0), it is a quotient of differences. An
+;;; integral is never carried out: its value is sum w_k f(s_k) with Takahasi and Mori's nodes
+;;; (double exponential formulas, 1974). See forms-fixed-value first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/exchange" "forms/fixed" "forms/sample"))
+  (core-require "forms/exchange" "forms/fixed" "forms/open_functions"))
 
 (defstruct forms-point
   (names (make-hash-table :test #'eq)) ; name -> value
@@ -77,20 +79,18 @@
               (t (forms-fixed-inverse power))))
       (forms-function-value '((mexpt)) (list base (forms-fixed-value exponent point)) point)))
 
-(defvar *forms-noun-value* nil "The value of a noun at a point, see noun_value.lisp.")
-
 (defun forms-bound-noun-p (e)
   (member (caar e) '(%derivative %integrate %at)))
 
 (defun forms-operation-value (e point)
   (flet ((parts () (mapcar (lambda (part) (forms-fixed-value part point)) (cdr e))))
-    (cond ((forms-bound-noun-p e) (funcall *forms-noun-value* e point))
+    (cond ((forms-bound-noun-p e) (forms-noun-value e point))
           ((forms-open-function-p (caar e)) (forms-open-value (caar e) (parts)))
           (t (forms-function-value e (parts) point)))))
 
 (defun forms-open-value (name arguments)
-  "sum c_k x_k + sum d_k x_k x_(k+1) as in forms-sample-polynomial."
-  (flet ((coefficient (k) (forms-fixed (forms-rational (forms-sample-coefficient name k)))))
+  "The polynomial of the function NAME at ARGUMENTS, as forms-open-polynomial has it."
+  (flet ((coefficient (k) (forms-fixed (forms-open-coefficient name k))))
     (loop for k from 1
           for x in arguments
           for y in (append (cdr arguments) (list (car arguments)))
@@ -111,11 +111,8 @@
       (forms-variable-value e point)))
 
 (defun forms-random-value (e)
-  "A value between 1/4 and 3/4 that the spelling of E decides."
-  (let ((state 20011))
-    (loop for character across (if (symbolp e) (symbol-name e) (coerce (mstring e) 'string))
-          do (setq state (mod (+ (* 7141 state) 54773 (* 331 (char-code character))) 259200)))
-    (forms-fixed (+ 1/4 (/ state 524288)))))
+  (forms-fixed
+   (forms-random-number (if (symbolp e) (symbol-name e) (coerce (mstring e) 'string)))))
 
 (defun forms-function-value (e arguments point)
   "The function of E at ARGUMENTS; a constant is E itself."
@@ -166,6 +163,103 @@
   ;; ((bigfloat .. precision) mantissa exponent) is mantissa*2^(exponent - precision)
   (* (cadr x) (expt 2 (- (caddr x) (car (last (car x)))))))
 
+;;; Nouns: derivatives, once or twice with respect to one name, and integrals.
+
+(defun forms-noun-value (e point)
+  (case (caar e)
+    (%integrate (forms-integral-value e point))
+    (t (let ((closed ($forms_closed e)))
+         (cond ((or (atom closed) (not (eq (caar closed) (caar e))))
+                (forms-fixed-value closed point))
+               ((eq (caar e) '%derivative) (forms-difference-value closed point))
+               (t (forms-no-value e)))))))
+
+(defun forms-difference-value (e point)
+  (destructuring-bind (body x &optional (order 1) &rest more) (cdr e)
+    (unless (and (symbolp x) (member order '(1 2)) (null more)) (forms-no-value e))
+    (let ((here (forms-fixed-value x point)) (step 100))
+      (flet ((value (k)
+               (let ((moved (forms-moved-point point)))
+                 (forms-set-place x (+ here (* k (ash 1 (- forms-digits step)))) moved)
+                 (forms-fixed-value body moved))))
+        (if (= order 1)
+            (ash (- (value 1) (value -1)) (1- step))
+            (ash (+ (value 1) (value -1) (* -2 (value 0))) (* 2 step)))))))
+
+;;; Integrals:
+;;;     s = (a+b)/2 + (b-a)/2 tanh(pi/2 sinh(k h))
+;;; serves integrands that are singular at the ends, too. Where half the step gives another value
+;;; there is none.
+
+(defparameter *forms-node-step* 31/512
+  "About 1/16; no multiple of its half is 1, at which Maxima's long exponential is off by 2^-53.")
+(defparameter *forms-node-count* 84
+  "Nodes on each side at this step: the last ones are 10^-110 from the ends.")
+(defconstant forms-tail-digits 160 "Binary digits behind which the last terms have to lie.")
+(defconstant forms-integral-digits 75
+  "Binary digits to which both sums have to agree: the finer one then has twice as many.")
+(defvar *forms-nodes* nil "Nodes and weights in turn at half the step, ((1 - tanh) . weight), ..")
+
+(defun forms-bigfloat-fixed (e)
+  "A constant expression in units of 2^-512."
+  (forms-fixed (forms-long-float-ratio ($bfloat e))))
+
+(defun forms-node (u)
+  "(1 - tanh(v) . weight), v = pi/2 sinh(u): 1 - tanh(v) = 2/(1 + exp(2v))."
+  (let* ((v (mul '((rat simp) 1 2) '$%pi (take '(%sinh) ($bfloat u))))
+         (cosh (take '(%cosh) ($bfloat v))))
+    (cons (forms-bigfloat-fixed (div 2 (add 1 (power '$%e ($bfloat (mul 2 v))))))
+          (forms-bigfloat-fixed (div (mul '((rat simp) 1 2) '$%pi (take '(%cosh) ($bfloat u)))
+                                     (mul cosh cosh))))))
+
+(defun forms-nodes ()
+  "The nodes for k = 0, 1, .. at half the step."
+  (or *forms-nodes*
+      (setq *forms-nodes*
+            (let* (($fpprec 160) (fpprec (+ 2 (integer-length (expt 10 160)))))
+              (loop for k from 0 to (* 2 *forms-node-count*)
+                    collect (forms-node (forms-maxima-ratio (* k (/ *forms-node-step* 2)))))))))
+
+(defun forms-maxima-ratio (x)
+  (div (numerator x) (denominator x)))
+
+(defun forms-integral-value (e point)
+  (destructuring-bind (body variable &rest limits) (cdr ($forms_closed e))
+    (unless (and (symbolp variable) (= (length limits) 2)) (forms-no-value e))
+    (forms-definite-value body variable
+                          (forms-fixed-value (first limits) point)
+                          (forms-fixed-value (second limits) point)
+                          point)))
+
+(defun forms-definite-value (body variable a b point)
+  (let ((half (ash (- b a) -1)) (whole 0) (fine 0) (last 0))
+    (flet ((value (s)
+             (let ((moved (forms-moved-point point)))
+               (forms-set-place variable s moved)
+               (forms-fixed-value body moved))))
+      (loop for (near . weight) in (forms-nodes)
+            for k from 0
+            for offset = (forms-fixed-times half near)
+            for term = (forms-fixed-times
+                        weight (if (zerop k)
+                                   (value (+ a half))
+                                   (+ (value (+ a offset)) (value (- b offset)))))
+            do (incf fine term)
+               (setq last term)
+               (when (evenp k) (incf whole term))))
+    (when (> (integer-length last) (- forms-digits forms-tail-digits)) (forms-no-value last))
+    (forms-agreed (forms-fixed-times half (forms-times-step whole *forms-node-step*))
+                  (forms-fixed-times half (forms-times-step fine (/ *forms-node-step* 2))))))
+
+(defun forms-times-step (sum step)
+  (round (* sum step)))
+
+(defun forms-agreed (whole fine)
+  (if (< (abs (- whole fine)) (ash (+ (ash 1 forms-digits) (abs fine))
+                                   (- forms-integral-digits)))
+      fine
+      (forms-no-value fine)))
+
 ;;; For Maxima.
 
 (defun forms-given-point (equations)
@@ -178,3 +272,20 @@
 where it has none."
   (let ((value (catch 'forms-no-value (forms-fixed-value e (forms-given-point point)))))
     (and value (div value (ash 1 forms-digits)))))
+
+(defun $forms_determinant_value (matrix point)
+  "The value at POINT, as for forms_value; false where an entry or a product has none."
+  (let* ((point (forms-given-point point))
+         (value (catch 'forms-no-value
+                  (forms-fixed-determinant
+                   (loop for (nil . row) in (cdr matrix)
+                         collect (mapcar (lambda (e) (forms-fixed-value e point)) row))))))
+    (and value (div value (forms-fixed 1)))))
+
+(defun $forms_combinations (items rows columns)
+  "For each of ITEMS, rows of numbers as ROWS are, whether it is a combination of ROWS; of these the
+first COLUMNS tell which."
+  (flet ((numbers (row) (mapcar (lambda (e) (forms-fixed (forms-rational e))) (cdr row))))
+    (let ((echelon (values (forms-echelon (mapcar #'numbers (cdr rows)) columns))))
+      (cons '(mlist simp)
+            (mapcar (lambda (item) (forms-in-echelon-p (numbers item) echelon)) (cdr items))))))

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/noun_value"))
+  (core-require "forms/value"))
 
 (defstruct linmodel-frame cosines cosine-rates place velocity)
 

@@ -1,13 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Programs of a system of bodies put together: M and f, the left sides M q'' - f for given q'', or
 ;;; q'' itself, by articulated bodies where every velocity belongs to one link, else by
-;;; M = L D L^T; constraints as in program_constraints.lisp. What comes out is judged by L from the
+;;; M = L D L^T; constraints as in equations_as_program.lisp. What comes out is judged by L from the
 ;;; positions in fixed axes. See linmodel-program-outputs first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/program_inertia" "linmodel/energy_value" "forms/program"))
+  (core-require "linmodel/program_inertia" "linmodel/energy_value" "forms/equations_as_program"))
 
 (defun linmodel-given-forces (potential dissipation forces q v)
   "dU/dq - dR/dq' + Q, U what the field does not give."

@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/program" "forms/program_linear"))
+  (core-require "linmodel/program" "forms/equations_as_program"))
 
 (defun linmodel-inertia-about-joint (a body)
   (let ((m (linmodel-body-mass body)) (c (linmodel-body-centre body))

@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Expressions made fit for numbers: every function that is left open becomes a polynomial of its
 ;;; own, the same wherever it occurs, and its derivatives that stand as nouns are carried out. What
-;;; Maxima cannot carry out, and every integral, stays: noun_value.lisp gives it a value.
+;;; Maxima cannot carry out, and every integral, stays: value.lisp gives it a value. Random numbers
+;;; are decided by the spelling of what they stand for, so that a failure is found again.
 
 (in-package :maxima)
 
@@ -16,23 +17,27 @@
        (not (or (get operator 'operators) (get operator 'grad)
                 (mget operator 'mexpr) (fboundp operator)))))
 
-(defun forms-sample-coefficient (name k)
-  "A rational number between 1/4 and 5/4 that the NAME of a function and K decide."
-  (let ((state (+ 17 k)))
-    (loop for character across (string name)
-          do (setq state (mod (+ (* 31 state) (char-code character)) 997)))
-    (div (+ 250 state) 1000)))
+(defun forms-random-number (spelling)
+  "A rational number between 1/4 and 3/4 that SPELLING decides."
+  (let ((state 20011))
+    (loop for character across spelling
+          do (setq state (mod (+ (* 7141 state) 54773 (* 331 (char-code character))) 259200)))
+    (+ 1/4 (/ state 524288))))
 
-(defun forms-sample-polynomial (name arguments)
-  "sum c_k x_k + sum d_k x_k x_(k+1), the last neighbour of x_n being x_1."
-  (let ((sum 0))
-    (loop for k from 1
-          for x in arguments
-          for y in (append (cdr arguments) (list (car arguments)))
-          do (setq sum (add sum
-                            (mul (forms-sample-coefficient name k) x)
-                            (mul (forms-sample-coefficient name (- k)) x y))))
-    sum))
+(defun forms-open-coefficient (name k)
+  "The K-th coefficient of the polynomial for the function NAME."
+  (forms-random-number (format nil "~a~d" name k)))
+
+(defun forms-open-polynomial (name arguments)
+  "sum c_k x_k + sum c_-k x_k x_(k+1), the last neighbour of x_n being x_1."
+  (flet ((coefficient (k)
+           (let ((c (forms-open-coefficient name k))) (div (numerator c) (denominator c)))))
+    (addn (loop for k from 1
+                for x in arguments
+                for y in (append (cdr arguments) (list (car arguments)))
+                collect (mul (coefficient k) x)
+                collect (mul (coefficient (- k)) x y))
+          nil)))
 
 (defparameter *forms-order* 6 "The highest order of a derivative that is carried out for a check.")
 
@@ -51,6 +56,6 @@
                            (apply #'$diff parts)
                            (cons '(%derivative simp) parts)))
           (%at (apply #'$at parts))
-          (t (cond ((forms-open-function-p (caar e)) (forms-sample-polynomial (caar e) parts))
+          (t (cond ((forms-open-function-p (caar e)) (forms-open-polynomial (caar e) parts))
                    ((every #'eq parts (cdr e)) e)
                    (t (simplifya (cons (remove 'simp (car e)) parts) nil))))))))
