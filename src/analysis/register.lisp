@@ -48,7 +48,7 @@
   "actions")
 (core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds"
   "analysis_extended_function" "K" "variables" "extend")
-(core-rule "InvariantManifolds" '("function") "analysis/stationary_sets"
+(core-rule "InvariantManifolds" '("function") "analysis/stationary"
   "analysis_invariant_manifolds"
   "K" "variables" *analysis-unknowns* (list "within" *analysis-none*))
 
@@ -77,13 +77,13 @@
   "analysis_first_approximation_motion"
   "LagrangeEquations" "coordinates" "solution" *analysis-where* *analysis-laws*)
 (core-rule-given '("function" $routh) "FirstApproximation" *analysis-kinds*
-  "analysis/first_approximation_momenta"
+  "analysis/motion_momenta"
   "analysis_first_approximation_routh"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
   *analysis-where* *analysis-laws*)
 (loop for (given kinds) in `((("function" $hamilton) ,*analysis-kinds*)
                              ("hamiltonian" ("lagrangian")))
-      do (core-rule-given given "FirstApproximation" kinds "analysis/first_approximation_momenta"
+      do (core-rule-given given "FirstApproximation" kinds "analysis/motion_momenta"
            "analysis_first_approximation_hamilton"
            "HamiltonEquations" "coordinates" "solution" *analysis-where* *analysis-laws*))
 
@@ -91,7 +91,7 @@
 (loop for part in '("M" "S" "W")
       do (core-rule-field part *analysis-kinds* "FirstApproximation" part)
          (core-rule-given '("function" $hamilton) part *analysis-kinds*
-           "analysis/first_approximation_momenta"
+           "analysis/motion_momenta"
            "analysis_no_second_order"))
 
 (core-public "CharacteristicPolynomial"
@@ -112,14 +112,13 @@
 
 (core-rule-same-as "polynomial" *analysis-kinds* "CharacteristicPolynomial")
 
-(loop for (name part function) in '(("HurwitzMinors" "analysis/hurwitz" "analysis_hurwitz_minors")
-                                    ("RouthHurwitz" "analysis/hurwitz" "analysis_routh_hurwitz")
-                                    ("LienardChipart" "analysis/lienard_chipart"
-                                     "analysis_lienard_chipart"))
+(loop for (name function) in '(("HurwitzMinors" "analysis_hurwitz_minors")
+                               ("RouthHurwitz" "analysis_routh_hurwitz")
+                               ("LienardChipart" "analysis_lienard_chipart"))
       do (core-public name :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
                            :options (cons "lambda" *analysis-linear-options*)
                            :kinds *analysis-kinds*)
-         (core-rule name :any part function "polynomial" *analysis-lambda*))
+         (core-rule name :any "analysis/criteria" function "polynomial" *analysis-lambda*))
 
 (core-public "Stability"
   :forms '(("equations" "equations" "solution"))
@@ -127,7 +126,7 @@
 (core-rule "Stability" *analysis-states* "analysis/stability" "analysis_stability_state"
   "state_equations" *analysis-variables* "solution" *analysis-where*
   *analysis-laws* *analysis-unknowns*)
-(core-rule "Stability" *analysis-motions* "analysis/energy" "analysis_stability_lagrangian"
+(core-rule "Stability" *analysis-motions* "analysis/stability_by_energy" "analysis_stability_lagrangian"
   "Lagrangian" "coordinates" "LagrangeEquations" "solution" *analysis-where* *analysis-laws*
   "actions")
 
@@ -155,7 +154,7 @@
   *analysis-lambda*)
 
 (core-public "RealNegativeRoots" :forms '(("polynomial" "polynomial" "u")))
-(core-rule "RealNegativeRoots" :any "analysis/real_roots" "analysis_real_negative_roots"
+(core-rule "RealNegativeRoots" :any "analysis/criteria" "analysis_real_negative_roots"
   "polynomial" "u")
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
@@ -167,16 +166,16 @@
 (core-public "ForceStructure"
   :forms '(("pencil" "M" "S" "W"))
   :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
-(core-rule "ForceStructure" :any "analysis/forces" "analysis_force_structure" "M" "S" "W")
+(core-rule "ForceStructure" :any "analysis/kelvin_chetaev" "analysis_force_structure" "M" "S" "W")
 
 (core-public "KelvinChetaev"
   :forms '(("forces" "M" "D" "G" "K" "P"))
   :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
-(core-rule "KelvinChetaev" '("forces") "analysis/forces" "analysis_kelvin_chetaev"
+(core-rule "KelvinChetaev" '("forces") "analysis/kelvin_chetaev" "analysis_kelvin_chetaev"
   "M" "D" "G" "K" "P")
-(core-rule "KelvinChetaev" *analysis-motions* "analysis/forces" "analysis_kelvin_chetaev_system"
+(core-rule "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev" "analysis_kelvin_chetaev_system"
   "M" "D" "G" "K" "P" "LagrangeEquations" "coordinates" "solution" *analysis-where*)
-(core-rule-given '("function" $routh) "KelvinChetaev" *analysis-motions* "analysis/forces"
+(core-rule-given '("function" $routh) "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev"
   "analysis_kelvin_chetaev_system"
   "M" "D" "G" "K" "P" "RouthEquations" "remaining_coordinates" "solution" *analysis-where*)
 (loop for part in '("D" "G" "K" "P")
