@@ -18,6 +18,6 @@ parameters that the solution names, and `where' is put in after them. Coordinate
   equations variables coordinates values where (ignorable '((mlist simp))))
 
 (core-record analysis-routh-function
-  "Routh's function R = a*v^2/2 + b*v + R0 of one coordinate q, v = q': `square' is a, `linear' is b,
-`rest' is R0."
+  "Routh's function R = a*v^2/2 + b*v + R0 of one coordinate q, v = q': `square' is a, `linear' is
+b, `rest' is R0."
   whole coordinate velocity square linear rest)

@@ -133,7 +133,8 @@
   :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
 (core-rule "Stability" *analysis-states* "analysis/stability" "analysis_stability_state"
   "motion")
-(core-rule "Stability" *analysis-motions* "analysis/stability_by_energy" "analysis_stability_lagrangian"
+(core-rule "Stability" *analysis-motions* "analysis/stability_by_energy"
+  "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
 
 ;;; The method of Routh and Lyapunov
@@ -180,7 +181,8 @@
   :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
 (core-rule "KelvinChetaev" '("forces") "analysis/kelvin_chetaev" "analysis_kelvin_chetaev"
   "M" "D" "G" "K" "P")
-(core-rule "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev" "analysis_kelvin_chetaev_system"
+(core-rule "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev"
+  "analysis_kelvin_chetaev_system"
   "M" "D" "G" "K" "P" "motion")
 (core-rule-given '("function" $routh) "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev"
   "analysis_kelvin_chetaev_system"
