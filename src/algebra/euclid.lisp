@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/zero" "algebra/sign" "algebra/root_location"))
+  (core-require "algebra/common" "algebra/normal" "algebra/zero" "algebra/sign"
+                "algebra/root_location"))
 
 ;;; Constants: rationals of Lisp, or expressions in normal form
 
