@@ -9,7 +9,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/common" "algebra/normal" "algebra/zero" "algebra/sign"
-                "algebra/root_location"))
+                "algebra/sturm" "algebra/root_location"))
 
 ;;; Constants: rationals of Lisp, or expressions in normal form
 
@@ -110,17 +110,13 @@
                          (algebra-euclid-remainder f g))))))
 
 (defun algebra-chain-changes (chain x)
-  "Changes of sign in the CHAIN at the rational X, or at $minf or $inf."
-  (algebra-count-changes
+  "Changes of sign in the CHAIN at X: 0, $minf or $inf."
+  (algebra-sign-changes
    (loop for f in chain
          collect (case x
                    ($inf (algebra-sign-of-constant (car f)))
                    ($minf (* (if (oddp (length f)) 1 -1) (algebra-sign-of-constant (car f))))
-                   (0 (algebra-sign-of-constant (car (last f))))
-                   (t (signum (reduce (lambda (value c) (+ (* value x) c)) f)))))))
-
-(defun algebra-count-changes (signs)
-  (loop for (a b) on (remove 0 signs) count (and b (/= a b))))
+                   (t (algebra-sign-of-constant (car (last f))))))))
 
 ;;; Real roots
 
@@ -133,24 +129,6 @@
 
 (defun algebra-chain-index (chain)
   (- (algebra-chain-changes chain '$minf) (algebra-chain-changes chain '$inf)))
-
-(defun $algebra_real_root_places (coefficients)
-  "The real roots in order, to six decimals, of rational coefficients: by bisection."
-  (let* ((a (algebra-euclid-list coefficients))
-         (chain (algebra-euclid-chain a (algebra-euclid-slope a)))
-         (bound (1+ (ceiling (reduce #'max (mapcar #'abs (cdr a))) (abs (car a))))))
-    (cons '(mlist simp)
-          (mapcar (lambda (r) (coerce (/ (round (* r 1000000)) 1000000) 'double-float))
-                  (algebra-places-between chain (- bound) bound)))))
-
-(defun algebra-places-between (chain low high)
-  "Those in (LOW, HIGH]."
-  (let ((count (- (algebra-chain-changes chain low) (algebra-chain-changes chain high)))
-        (middle (/ (+ low high) 2)))
-    (cond ((zerop count) '())
-          ((< (- high low) 1/100000000) (make-list count :initial-element middle))
-          (t (append (algebra-places-between chain low middle)
-                     (algebra-places-between chain middle high))))))
 
 ;;; For Maxima
 
@@ -179,7 +157,3 @@
   (let* ((a (algebra-euclid-list coefficients))
          (chain (algebra-euclid-chain a (algebra-euclid-slope a))))
     (- (algebra-chain-changes chain '$minf) (algebra-chain-changes chain 0))))
-
-(defun $algebra_sign_changes (signs)
-  "In a list of the numbers 1, 0, -1."
-  (algebra-count-changes (cdr signs)))
