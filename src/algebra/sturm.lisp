@@ -2,9 +2,9 @@
 ;;;
 ;;; How many real roots a polynomial with rational coefficients has between two bounds, exactly, and
 ;;; to six decimals where they are: by Sturm's chain p, p', and each time the negative remainder of
-;;; the last two; the changes of sign in it at a less those at b are the roots in (a, b] (Gantmacher,
-;;; The Theory of Matrices, XV, 2). Other coefficients: euclid.lisp; where the roots lie in the
-;;; plane: root_location.lisp.
+;;; the last two; the changes of sign in it at a less those at b are the roots in (a, b]
+;;; (Gantmacher, The Theory of Matrices, XV, 2). Other coefficients: euclid.lisp; where the roots
+;;; lie in the plane: root_location.lisp.
 
 (in-package :maxima)
 
