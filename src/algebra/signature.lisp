@@ -11,7 +11,8 @@
 
 (defstruct (algebra-form (:conc-name algebra-form-) (:predicate nil))
   rows    ; a vector of vectors, which are changed
-  sign    ; of a coefficient: 1, 0, -1 or nil
+  sign    ; of a coefficient: 1 and -1 where it is known
+  zero    ; whether a coefficient vanishes identically
   divide  ; (a b): a/b
   less)   ; (a f b): a - f*b
 
@@ -21,30 +22,31 @@
         (signs '()))
     (loop for pivot = (algebra-form-pivot form left)
           while pivot
-          do (push (algebra-form-sign-at form pivot pivot) signs)
+          do (push (funcall (algebra-form-sign form) (algebra-form-entry form pivot pivot)) signs)
              (setq left (remove pivot left))
              (algebra-split-square form pivot left))
-    (when (every (lambda (i) (every (lambda (j) (eql 0 (algebra-form-sign-at form i j))) left))
-                 left)
+    (when (algebra-form-vanishes-p form left)
       (list (count 1 signs) (count -1 signs) (length left)))))
+
+(defun algebra-form-vanishes-p (form left)
+  (loop for i in left
+        always (loop for j in left
+                     always (funcall (algebra-form-zero form) (algebra-form-entry form i j)))))
 
 (defun algebra-form-entry (form i j) (aref (aref (algebra-form-rows form) i) j))
 
-(defun algebra-form-sign-at (form i j)
-  (funcall (algebra-form-sign form) (algebra-form-entry form i j)))
-
 (defun algebra-form-pivot (form left)
   "An index whose square has a known sign, made so by adding one row and column to another."
-  (let ((signs (mapcar (lambda (i) (algebra-form-sign-at form i i)) left)))
-    (or (loop for i in left for sign in signs when (member sign '(1 -1)) return i)
+  (flet ((known-p (i j) (member (funcall (algebra-form-sign form) (algebra-form-entry form i j))
+                                '(1 -1)))
+         (zero-p (i) (funcall (algebra-form-zero form) (algebra-form-entry form i i))))
+    (or (loop for i in left when (known-p i i) return i)
         (loop for (i . others) on left
-              for (sign . other-signs) on signs
-              do (loop for j in others
-                       for other in other-signs
-                       when (and (eql sign 0) (eql other 0)
-                                 (member (algebra-form-sign-at form i j) '(1 -1)))
-                         do (algebra-add-index form i j)
-                            (return-from algebra-form-pivot i))))))
+              when (zero-p i)
+                do (loop for j in others
+                         when (and (known-p i j) (zero-p j))
+                           do (algebra-add-index form i j)
+                              (return-from algebra-form-pivot i))))))
 
 (defun algebra-add-index (form i j)
   (let* ((rows (algebra-form-rows form)) (row (aref rows i)))
@@ -66,19 +68,15 @@
 ;;; The two arithmetics
 
 (defun algebra-rational-form (rows &optional (divide #'/))
-  (make-algebra-form :rows rows :sign #'signum :divide divide
+  (make-algebra-form :rows rows :sign #'signum :zero #'zerop :divide divide
                      :less (lambda (a f b) (- a (* f b)))))
 
 (defun algebra-expression-form (rows)
-  (make-algebra-form :rows rows :sign #'algebra-form-coefficient-sign :divide #'div
+  (make-algebra-form :rows rows
+                     :sign (lambda (e) (case ($algebra_sign e) ($pos 1) ($neg -1)))
+                     :zero (lambda (e) (eq t ($algebra_zerop e)))
+                     :divide #'div
                      :less (lambda (a f b) ($algebra_normal (sub a (mul f b))))))
-
-(defun algebra-form-coefficient-sign (e)
-  "0 only where E vanishes identically."
-  (case ($algebra_sign e)
-    ($pos 1)
-    ($neg -1)
-    (t (if (eq t ($algebra_zerop e)) 0))))
 
 (defun $algebra_signature (matrix)
   "[positive, negative, zero] eigenvalues of a symmetric MATRIX; false where signs are not known."
