@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (load (core-pathname (concatenate 'string *core-root* "tests/fuzz_signs.lisp")))
-(core-require "analysis/hurwitz" "analysis/lienard_chipart" "analysis/real_roots"
+(core-require "analysis/criteria"
               "analysis/definite")
 
 ;;; Properties of numbers

@@ -10,9 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/groebner" "algebra/normal"
-                "algebra/evaluate" "algebra/general_form" "algebra/readable" "algebra/relations"
-                "algebra/scan"))
+  (core-require "algebra/normal" "algebra/groebner" "algebra/signature"))
 
 (defparameter *algebra-most-points* 48 "dimension of the quotient ring up to which it is formed")
 (defparameter *algebra-most-exponent* 200 "exponent up to which bases are sought")
@@ -290,36 +288,14 @@ of NAMES; nil where it gives up."
                       rows))
        products))
 
-(defun algebra-signature-of (form)
-  "Positive less negative squares of a symmetric FORM of rational numbers, which is changed."
-  (let ((n (length form)) (left nil) (signature 0))
-    (dotimes (i n) (push i left))
-    (loop for pivot = (algebra-diagonal-pivot form left)
-          while pivot
-          do (setq left (delete pivot left))
-             (incf signature (signum (aref (aref form pivot) pivot)))
-             (algebra-split-square form pivot left))
-    signature))
-
-(defun algebra-diagonal-pivot (form left)
-  "An index whose diagonal entry is not 0, made so by adding one row and column to another."
-  (or (find-if (lambda (i) (/= 0 (aref (aref form i) i))) left)
-      (loop for (i . others) on left
-            do (loop for j in others
-                     unless (zerop (aref (aref form i) j))
-                       do (algebra-add-index form i j)
-                          (return-from algebra-diagonal-pivot i)))))
-
-(defun algebra-add-index (form i j)
-  (let ((row (aref form i)))
-    (dotimes (k (length form)) (incf (aref row k) (aref (aref form j) k)))
-    (dotimes (k (length form)) (incf (aref (aref form k) i) (aref (aref form k) j)))))
-
-(defun algebra-split-square (form pivot left)
-  (let ((row (aref form pivot)))
-    (dolist (i left)
-      (let ((factor (/ (aref (aref form i) pivot) (aref row pivot))))
-        (unless (zerop factor)
-          (algebra-count-work `((nil . ,(numerator factor))))
-          (dolist (j left)
-            (decf (aref (aref form i) j) (* factor (aref row j)))))))))
+(defun algebra-signature-of (rows)
+  "Positive less negative squares of a symmetric form of rational numbers, ROWS, which is changed."
+  (destructuring-bind (positive negative zero)
+      (algebra-signature (algebra-rational-form
+                          rows (lambda (a b)
+                                 (let ((factor (/ a b)))
+                                   (unless (zerop factor)
+                                     (algebra-count-work `((nil . ,(numerator factor)))))
+                                   factor))))
+    (declare (ignore zero))
+    (- positive negative)))

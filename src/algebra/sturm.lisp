@@ -1,9 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; How many real roots a polynomial with rational coefficients has between two bounds, exactly: by
-;;; Sturm's chain p, p', and each time the negative remainder of the last two; the changes of sign
-;;; in it at a less those at b are the roots in (a, b] (Gantmacher, The Theory of Matrices, XV, 2).
-;;; Where the roots lie in the plane, and other coefficients: root_location.lisp.
+;;; How many real roots a polynomial with rational coefficients has between two bounds, exactly, and
+;;; to six decimals where they are: by Sturm's chain p, p', and each time the negative remainder of
+;;; the last two; the changes of sign in it at a less those at b are the roots in (a, b]
+;;; (Gantmacher, The Theory of Matrices, XV, 2). Other coefficients: euclid.lisp; where the roots
+;;; lie in the plane: root_location.lisp.
 
 (in-package :maxima)
 
@@ -22,14 +23,34 @@ rational, minf or inf."
 
 (defun algebra-real-roots-between (p low high)
   "The same for rational numbers of Lisp; nil is an infinite bound."
-  (let ((chain (algebra-sturm-chain (algebra-primitive p))))
-    (flet ((changes (bound direction)
-             (algebra-sign-changes
-              (mapcar (lambda (f) (if bound
-                                      (algebra-sign-of-value f bound)
-                                      (algebra-sign-far-out f direction)))
-                      chain))))
-      (- (changes low -1) (changes high 1)))))
+  (algebra-chain-roots (algebra-sturm-chain (algebra-primitive p)) low high))
+
+(defun algebra-chain-roots (chain low high)
+  "How many real roots a polynomial with this CHAIN has in (LOW, HIGH]."
+  (flet ((changes (bound direction)
+           (algebra-sign-changes
+            (mapcar (lambda (f) (if bound
+                                    (algebra-sign-of-value f bound)
+                                    (algebra-sign-far-out f direction)))
+                    chain))))
+    (- (changes low -1) (changes high 1))))
+
+(defun $algebra_real_root_places (coefficients)
+  "The real roots in order, to six decimals, of rational coefficients: by bisection."
+  (let* ((p (algebra-primitive (mapcar #'algebra-rational-number (cdr coefficients))))
+         (bound (1+ (ceiling (reduce #'max (mapcar #'abs (cdr p))) (abs (car p))))))
+    (cons '(mlist simp)
+          (mapcar (lambda (r) (coerce (/ (round (* r 1000000)) 1000000) 'double-float))
+                  (algebra-places-between (algebra-sturm-chain p) (- bound) bound)))))
+
+(defun algebra-places-between (chain low high)
+  "Those in (LOW, HIGH]."
+  (let ((count (algebra-chain-roots chain low high))
+        (middle (/ (+ low high) 2)))
+    (cond ((zerop count) '())
+          ((< (- high low) 1/100000000) (make-list count :initial-element middle))
+          (t (append (algebra-places-between chain low middle)
+                     (algebra-places-between chain middle high))))))
 
 (defun algebra-sturm-chain (p)
   "The chain of P without its multiple roots: at these all of it would vanish."
@@ -83,3 +104,7 @@ rational, minf or inf."
 (defun algebra-sign-changes (signs)
   (loop for (a b) on (remove 0 signs)
         count (and b (/= a b))))
+
+(defun $algebra_sign_changes (signs)
+  "In a list of the numbers 1, 0, -1."
+  (algebra-sign-changes (cdr signs)))

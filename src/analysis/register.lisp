@@ -48,7 +48,7 @@
   "actions")
 (core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds"
   "analysis_extended_function" "K" "variables" "extend")
-(core-rule "InvariantManifolds" '("function") "analysis/stationary_sets"
+(core-rule "InvariantManifolds" '("function") "analysis/stationary"
   "analysis_invariant_manifolds"
   "K" "variables" *analysis-unknowns* (list "within" *analysis-none*))
 
@@ -62,6 +62,22 @@
   "LagrangeEquations" "coordinates" *analysis-unknowns* *analysis-where*
   *analysis-laws*)
 
+;;; The motion that is asked about
+
+(core-rule "special_cases" :any "analysis/records" "analysis_special_cases"
+  *analysis-where* *analysis-laws*)
+(core-rule "special_cases_sought" :any "analysis/records" "analysis_special_cases"
+  *analysis-where* *analysis-laws* *analysis-unknowns*)
+(core-rule "motion" *analysis-states* "analysis/motion" "analysis_state_motion"
+  "state_equations" *analysis-variables* "solution" "special_cases_sought")
+(core-rule "motion" *analysis-motions* "analysis/motion" "analysis_lagrange_motion"
+  "LagrangeEquations" "coordinates" "solution" "special_cases")
+(core-rule "routh_motion" :any "analysis/motion_momenta" "analysis_routh_motion"
+  "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
+  "special_cases")
+(core-rule "hamilton_motion" :any "analysis/motion_momenta" "analysis_hamilton_motion"
+  "HamiltonEquations" "coordinates" "solution" "special_cases")
+
 ;;; First approximation and criteria
 
 (core-option '("lagrange" "routh" "hamilton") "function")
@@ -70,29 +86,21 @@
            ("equations" "equations" "solution"))
   :trailing '("solution") :options *analysis-linear-options* :kinds *analysis-kinds*)
 (core-rule "FirstApproximation" *analysis-states* "analysis/first_approximation"
-  "analysis_first_approximation_state"
-  "state_equations" *analysis-variables* "solution" *analysis-where*
-  *analysis-laws* *analysis-unknowns*)
+  "analysis_state_approximation" "motion")
 (core-rule "FirstApproximation" *analysis-motions* "analysis/first_approximation"
-  "analysis_first_approximation_motion"
-  "LagrangeEquations" "coordinates" "solution" *analysis-where* *analysis-laws*)
+  "analysis_second_order_approximation" "motion")
 (core-rule-given '("function" $routh) "FirstApproximation" *analysis-kinds*
-  "analysis/first_approximation_momenta"
-  "analysis_first_approximation_routh"
-  "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
-  *analysis-where* *analysis-laws*)
+  "analysis/first_approximation" "analysis_second_order_approximation" "routh_motion")
 (loop for (given kinds) in `((("function" $hamilton) ,*analysis-kinds*)
                              ("hamiltonian" ("lagrangian")))
-      do (core-rule-given given "FirstApproximation" kinds "analysis/first_approximation_momenta"
-           "analysis_first_approximation_hamilton"
-           "HamiltonEquations" "coordinates" "solution" *analysis-where* *analysis-laws*))
+      do (core-rule-given given "FirstApproximation" kinds "analysis/first_approximation"
+           "analysis_state_approximation" "hamilton_motion"))
 
 (core-rule-field "A" *analysis-kinds* "FirstApproximation" "A")
 (loop for part in '("M" "S" "W")
       do (core-rule-field part *analysis-kinds* "FirstApproximation" part)
          (core-rule-given '("function" $hamilton) part *analysis-kinds*
-           "analysis/first_approximation_momenta"
-           "analysis_no_second_order"))
+           "analysis/motion_momenta" "analysis_no_second_order"))
 
 (core-public "CharacteristicPolynomial"
   :forms '(("matrices" "A" "lambda") ("pencil" "M" "S" "W" "lambda"))
@@ -112,24 +120,22 @@
 
 (core-rule-same-as "polynomial" *analysis-kinds* "CharacteristicPolynomial")
 
-(loop for (name part function) in '(("HurwitzMinors" "analysis/hurwitz" "analysis_hurwitz_minors")
-                                    ("RouthHurwitz" "analysis/hurwitz" "analysis_routh_hurwitz")
-                                    ("LienardChipart" "analysis/lienard_chipart"
-                                     "analysis_lienard_chipart"))
+(loop for (name function) in '(("HurwitzMinors" "analysis_hurwitz_minors")
+                               ("RouthHurwitz" "analysis_routh_hurwitz")
+                               ("LienardChipart" "analysis_lienard_chipart"))
       do (core-public name :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
                            :options (cons "lambda" *analysis-linear-options*)
                            :kinds *analysis-kinds*)
-         (core-rule name :any part function "polynomial" *analysis-lambda*))
+         (core-rule name :any "analysis/criteria" function "polynomial" *analysis-lambda*))
 
 (core-public "Stability"
   :forms '(("equations" "equations" "solution"))
   :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
 (core-rule "Stability" *analysis-states* "analysis/stability" "analysis_stability_state"
-  "state_equations" *analysis-variables* "solution" *analysis-where*
-  *analysis-laws* *analysis-unknowns*)
-(core-rule "Stability" *analysis-motions* "analysis/energy" "analysis_stability_lagrangian"
-  "Lagrangian" "coordinates" "LagrangeEquations" "solution" *analysis-where* *analysis-laws*
-  "actions")
+  "motion")
+(core-rule "Stability" *analysis-motions* "analysis/stability_by_energy"
+  "analysis_stability_lagrangian"
+  "motion" "Lagrangian" "actions" *analysis-laws*)
 
 ;;; The method of Routh and Lyapunov
 
@@ -142,10 +148,11 @@
   :forms '(("equations" "equations" "integrals" "variables"))
   :options '("where" "unknowns" "multipliers") :kinds (core-kinds-giving "known_integrals"))
 (core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov_on"
-  "state_equations" "known_integrals" "variables" *analysis-unknowns* *analysis-where*
-  *analysis-laws* (list "multipliers" *analysis-none*) (list "level" *analysis-none*)
-  (list "solution" *analysis-none*))
+  "analysis_routh_lyapunov"
+  "state_equations" "integrals_everywhere" "variables" "special_cases_sought"
+  (list "multipliers" *analysis-none*) (list "solution" *analysis-none*))
+(core-rule "integrals_everywhere" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
+  "analysis_integrals_everywhere" "known_integrals" (list "level" *analysis-none*))
 
 ;;; Matrices and forms
 
@@ -155,7 +162,7 @@
   *analysis-lambda*)
 
 (core-public "RealNegativeRoots" :forms '(("polynomial" "polynomial" "u")))
-(core-rule "RealNegativeRoots" :any "analysis/real_roots" "analysis_real_negative_roots"
+(core-rule "RealNegativeRoots" :any "analysis/criteria" "analysis_real_negative_roots"
   "polynomial" "u")
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
@@ -167,18 +174,19 @@
 (core-public "ForceStructure"
   :forms '(("pencil" "M" "S" "W"))
   :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
-(core-rule "ForceStructure" :any "analysis/forces" "analysis_force_structure" "M" "S" "W")
+(core-rule "ForceStructure" :any "analysis/kelvin_chetaev" "analysis_force_structure" "M" "S" "W")
 
 (core-public "KelvinChetaev"
   :forms '(("forces" "M" "D" "G" "K" "P"))
   :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
-(core-rule "KelvinChetaev" '("forces") "analysis/forces" "analysis_kelvin_chetaev"
+(core-rule "KelvinChetaev" '("forces") "analysis/kelvin_chetaev" "analysis_kelvin_chetaev"
   "M" "D" "G" "K" "P")
-(core-rule "KelvinChetaev" *analysis-motions* "analysis/forces" "analysis_kelvin_chetaev_system"
-  "M" "D" "G" "K" "P" "LagrangeEquations" "coordinates" "solution" *analysis-where*)
-(core-rule-given '("function" $routh) "KelvinChetaev" *analysis-motions* "analysis/forces"
+(core-rule "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev"
   "analysis_kelvin_chetaev_system"
-  "M" "D" "G" "K" "P" "RouthEquations" "remaining_coordinates" "solution" *analysis-where*)
+  "M" "D" "G" "K" "P" "motion")
+(core-rule-given '("function" $routh) "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev"
+  "analysis_kelvin_chetaev_system"
+  "M" "D" "G" "K" "P" "routh_motion")
 (loop for part in '("D" "G" "K" "P")
       do (core-rule-field part *analysis-motions* "ForceStructure" part))
 

@@ -1,0 +1,23 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The records of the analysis. A motion is what everything is asked about: the first
+;;; approximation, the structure of forces, stability. It is derived once, in motion.mac.
+
+(in-package :maxima)
+
+(core-record analysis-special-cases
+  "What is put into equations, special cases `where' and laws of open functions, and what of them is
+sought, [] being the variables."
+  where laws (unknowns '((mlist simp))))
+
+(core-record analysis-motion
+  "A stationary motion. `equations' are expressions e that vanish, in plain symbols, laws put in,
+the constraints last; `variables' their unknowns, multipliers of the constraints among them, and
+`coordinates' these without the multipliers. `values' are [x'' = .., x' = .., x = ..], with those of
+parameters that the solution names, and `where' is put in after them. Coordinates that are
+`ignorable' do not count in a verdict."
+  equations variables coordinates values where (ignorable '((mlist simp))))
+
+(core-record analysis-routh-function
+  "Routh's function R = a*v^2/2 + b*v + R0 of one coordinate q, v = q': `square' is a, `linear' is
+b, `rest' is R0."
+  whole coordinate velocity square linear rest)
