@@ -10,7 +10,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/groebner" "algebra/signature"))
+  (core-require "algebra/evaluate" "algebra/general_form" "algebra/groebner" "algebra/kernels"
+                "algebra/normal" "algebra/readable" "algebra/relations" "algebra/scan"
+                "algebra/signature" "algebra/size"))
 
 (defparameter *algebra-most-points* 48 "dimension of the quotient ring up to which it is formed")
 (defparameter *algebra-most-exponent* 200 "exponent up to which bases are sought")

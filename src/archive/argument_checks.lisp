@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/argument_types" "archive/function_spellings"))
+  (core-require "archive/argument_types" "archive/function_spellings" "archive/groups"
+                "archive/names" "archive/types"))
 
 (defun archive-map-parts (function value)
   "Calls FUNCTION on VALUE and all its parts."

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/types" "archive/names" "archive/speller"))
+  (core-require "archive/keys" "archive/names" "archive/simplify" "archive/speller"
+                "archive/types"))
 
 (defun archive-arguments-taken (arguments)
   "ARGUMENTS as the session gave them: what `rat' and `taylor' made in general form, and keys that

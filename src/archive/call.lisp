@@ -6,7 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/open" "archive/results" "archive/argument_checks"))
+  (core-require "archive/argument_checks" "archive/groups" "archive/names" "archive/open"
+                "archive/results" "archive/types"))
 
 (defstruct archive-call
   public archive kind

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/tokens" "archive/simplify"))
+  (core-require "archive/plain_simplifier" "archive/simplify" "archive/tokens"))
 
 (defvar *archive-nesting* #-gcl 200 #+gcl 100
   "The most levels of nesting. GCL has room for two thousand calls in each other, of Maxima's

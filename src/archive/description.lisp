@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/groups" "archive/parser" "archive/speller"))
+  (core-require "archive/groups" "archive/keys" "archive/parser" "archive/speller"
+                "archive/types"))
 
 ;;; Keys of one section
 

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/questions" "archive/open" "archive/store"))
+  (core-require "archive/keys" "archive/open" "archive/parser" "archive/questions" "archive/store"
+                "archive/types"))
 
 ;;; Sections
 

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/plain_simplifier" "archive/simplify" "archive/speller"))
+  (core-require "archive/plain_simplifier" "archive/simplify" "archive/speller" "archive/tokens"
+                "archive/types"))
 
 (defparameter *archive-exact-digits* 15 "Digits that a double keeps of every decimal.")
 (defparameter *archive-inverse-digits* 8

@@ -6,7 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/types" "archive/sections"))
+  (core-require "archive/keys" "archive/parser" "archive/rows" "archive/sections"
+                "archive/types"))
 
 (defstruct archive
   path         ; as the user gave it, or as file_search found it; nil for a description list

@@ -5,8 +5,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/description" "archive/names" "archive/sections" "archive/bytes"
-                "archive/plain_simplifier" "archive/argument_checks"))
+  (core-require "archive/argument_checks" "archive/bytes" "archive/description" "archive/groups"
+                "archive/keys" "archive/names" "archive/parser" "archive/plain_simplifier"
+                "archive/sections" "archive/types"))
 
 (defun archive-of-groups (path text parts groups)
   "The archive made of GROUPS, with a warning on names that nothing declares."

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/steps" "archive/argument_types"))
+  (core-require "archive/argument_types" "archive/call" "archive/groups" "archive/keys"
+                "archive/names" "archive/open" "archive/results" "archive/steps" "archive/types"))
 
 (defun archive-option-name (equation)
   (let ((left (cadr equation)))

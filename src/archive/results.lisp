@@ -8,7 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/open" "archive/store"))
+  (core-require "archive/description" "archive/digest" "archive/groups" "archive/keys"
+                "archive/names" "archive/open" "archive/parser" "archive/sections"
+                "archive/speller" "archive/store" "archive/tokens" "archive/types"))
 
 (defparameter *archive-result-width* 96)
 

@@ -9,7 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/tokens" "archive/parser"))
+  (core-require "archive/compounds" "archive/keys" "archive/parser" "archive/simplify"
+                "archive/tokens"))
 
 (defun archive-row-parser (section)
   "What parses the rows of SECTION, of whatever kind; nil where its entries are keys."

@@ -9,7 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/tokens" "archive/parser" "archive/bytes" "archive/rows"))
+  (core-require "archive/bytes" "archive/parser" "archive/rows" "archive/simplify"
+                "archive/tokens"))
 
 (defstruct (archive-sheet (:conc-name sheet-))
   "The TEXT of FILE, its line end, and its sections in their order."

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/tokens" "archive/parser"))
+  (core-require "archive/compounds" "archive/parser" "archive/simplify" "archive/tokens"))
 
 (defvar *archive-out* nil
   "What is written, the last piece first. (GCL's string streams take time in squares.)")

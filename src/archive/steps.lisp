@@ -6,7 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/derived" "archive/results"))
+  (core-require "archive/call" "archive/derived" "archive/groups" "archive/keys" "archive/results"
+                "archive/sections" "archive/speller" "archive/store" "archive/types"))
 
 (defstruct archive-need
   keys     ; keys of [system] the quantity depends on; "*" is the whole structure

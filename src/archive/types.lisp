@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/nearest" "archive/register"))
+  (core-require "core/nearest" "archive/register" "archive/simplify" "archive/speller"))
 
 (defparameter *archive-version* 1)
 
