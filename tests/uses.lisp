@@ -73,14 +73,10 @@
                 form))))
 
 (defun uses-lisp-declared (forms)
-  (let ((parts '()))
-    (labels ((walk (form)
-               (when (consp form)
-                 (when (and (eq (car form) 'core-require) (listp (cdr form)))
-                   (setq parts (append (remove-if-not #'stringp (cdr form)) parts)))
-                 (loop while (consp form) do (walk (pop form))))))
-      (walk forms))
-    parts))
+  "All texts: the parts in core-require, and those that data name beside a function."
+  (let ((texts '()))
+    (dolist (form forms texts)
+      (uses-map (lambda (atom) (when (stringp atom) (push atom texts))) form))))
 
 ;;; Maxima: words, comments and texts left out
 

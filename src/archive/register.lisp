@@ -6,9 +6,6 @@
 
 (in-package :maxima)
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/circuit" "archive/names" "archive/rows"))
-
 (core-option :truth "save" "verbose" "progress")
 (core-option :seconds "limit")
 (core-option :factor "size")

@@ -4,9 +4,6 @@
 
 (in-package :maxima)
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/known_signs"))
-
 (defparameter *forms-kinds* (core-kinds-giving "Lagrangian"))
 
 (core-option :truth "simplify" "expanded" "eliminate" "solved")
