@@ -152,9 +152,12 @@
      "labels of the branches of the proper tree, such as [C1, C2]; found unless given"
      "Labels of the tree's branches"))
   :sections
-  '((("branches" :rows "[label:] node -> node  type  value  [state]" archive-parse-branch))
-    (("couplings" :rows "label label  M, or label label  k = number" archive-parse-coupling))
-    (("transformers" :rows "node -> node : node -> node  ratio n" archive-parse-transformer)))
+  '((("branches" :rows "[label:] node -> node  type  value  [state]"
+      ("archive/rows" archive-parse-branch)))
+    (("couplings" :rows "label label  M, or label label  k = number"
+      ("archive/rows" archive-parse-coupling)))
+    (("transformers" :rows "node -> node : node -> node  ratio n"
+      ("archive/rows" archive-parse-transformer))))
   :instead "graph"
   :completed '("archive/circuit" archive-circuit-completed)
   :gives '("Lagrangian" ("state_equations" "StateEquations")))

@@ -15,7 +15,7 @@
 (defun archive-row-parser (section)
   "What parses the rows of SECTION, of whatever kind; nil where its entries are keys."
   (let ((sort (archive-find-sort nil section)))
-    (and sort (eq (archive-sort-form sort) :rows) (archive-sort-detail sort))))
+    (and sort (eq (archive-sort-form sort) :rows) (second (archive-sort-detail sort)))))
 
 ;; Fields
 
