@@ -2,8 +2,8 @@
 ;;; Functions with branches: piecewise([condition, value], ..), of which Maxima knows nothing, after
 ;;; names in it got values; and derivatives at a point of max, min, abs, signum, unit_step and
 ;;; piecewise. Near a point where it is decided which branch holds the function is that branch, and
-;;; so is its derivative; where two branches meet there is none. See forms-piecewise and
-;;; forms-kinked-slope first.
+;;; so is its derivative; where two branches meet there is none. And functions that jump, such as
+;;; atan2 on its cut and floor. See forms-piecewise, forms-kinked-slope and forms-jump-at first.
 
 (in-package :maxima)
 
@@ -122,4 +122,26 @@ not decided which branch holds there."
         ((and (member (caar e) *forms-kinked*)
               (null (core-attempt (lambda ()
                                     (catch 'forms-no-branch (forms-branch e at-point))))))
+         e)))
+
+;;; Jumps: a derivative taken by a formula says nothing of a function that jumps at the point.
+
+(defparameter *forms-stepping*
+  '($floor $ceiling %round %truncate $mod %kron_delta %hstep $charfun)
+  "Functions that have jumps wherever they move.")
+
+(defun forms-smooth-at-p (e at-point)
+  "Whether it is known that E, a function of what moves, does not jump at the point."
+  (flet ((sign (part) ($algebra_sign (funcall at-point part))))
+    (case (caar e)
+      ($atan2 (or (member (sign (second e)) '($pos $neg $pn)) (eq (sign (third e)) '$pos)))
+      ((%acot %acsch) (member (sign (second e)) '($pos $neg $pn)))
+      (t (not (member (caar e) *forms-stepping*))))))
+
+(defun forms-jump-at (e at-point)
+  "A function in E that may jump at the point, or nil."
+  (cond ((atom e) nil)
+        ((some (lambda (part) (forms-jump-at part at-point)) (cdr e)))
+        ((and (notevery (lambda (part) (alike1 part (funcall at-point part))) (cdr e))
+              (not (forms-smooth-at-p e at-point)))
          e)))

@@ -75,6 +75,10 @@
   "A function in E that has no derivative at POINT, equations; else false."
   (forms-kink-at e (forms-putting (cdr point))))
 
+(defun $forms_jump_at (e point)
+  "A function in E that may jump at POINT, equations; else false."
+  (forms-jump-at e (forms-putting (cdr point))))
+
 ;;; Nouns with variables of their own.
 
 (defun forms-exchange-in-noun (e pairs)
