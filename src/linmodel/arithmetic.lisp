@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/shortest_forms" "linmodel/polar"))
+  (core-require "algebra/normal" "algebra/shortest_forms" "linmodel/general_expressions"))
 
 (defstruct linmodel-arithmetic
   lift lower add multiply sine cosine
@@ -77,7 +77,7 @@ about one axis, so that general expressions stay short."
    :lift #'identity
    :lower #'identity
    :add (lambda (x y) (add x y))
-   :multiply #'linmodel-product
+   :multiply #'linmodel-general-product
    :sine #'linmodel-sine
    :cosine #'linmodel-cosine
    :turn #'linmodel-turned-plane

@@ -12,19 +12,21 @@
 
 (defstruct linmodel-solid link mass centre moments momentum) ; numbers; moments: rows of J, or nil
 
+(defun linmodel-fixed-rows (tensor point)
+  (mapcar (lambda (row) (linmodel-fixed-vector row point)) (cdr tensor)))
+
 (defun linmodel-solid-at (body point)
-  (destructuring-bind (link mass centre joint-inertia centre-inertia &optional momentum) (cdr body)
-    (flet ((rows (tensor)
-             (and tensor (mapcar (lambda (row) (linmodel-fixed-vector row point)) (cdr tensor)))))
-      (let ((mass (forms-fixed-value mass point))
-            (centre (linmodel-fixed-vector centre point)))
-        (make-linmodel-solid
-         :link link :mass mass :centre centre
-         :moments (linmodel-moments
-                   (if joint-inertia
-                       (linmodel-fixed-about-centre (rows joint-inertia) mass centre)
-                       (rows centre-inertia)))
-         :momentum (and momentum (linmodel-fixed-vector momentum point)))))))
+  (let ((mass (forms-fixed-value (linmodel-body-mass body) point))
+        (centre (linmodel-fixed-vector (linmodel-body-centre body) point))
+        (about-joint (linmodel-fixed-rows (linmodel-body-joint-inertia body) point))
+        (about-centre (linmodel-fixed-rows (linmodel-body-centre-inertia body) point))
+        (momentum (linmodel-body-momentum body)))
+    (make-linmodel-solid
+     :link (linmodel-body-link body) :mass mass :centre centre
+     :moments (linmodel-moments (if about-joint
+                                    (linmodel-fixed-about-centre about-joint mass centre)
+                                    about-centre))
+     :momentum (and momentum (linmodel-fixed-vector momentum point)))))
 
 (defun linmodel-diagonal-minus (x rows)
   "X on the diagonal minus ROWS."
@@ -54,7 +56,9 @@
     (+ (ash (forms-fixed-times (linmodel-solid-mass solid) (forms-fixed-dot velocity velocity))
             -1)
        (ash (linmodel-trace-value (linmodel-solid-moments solid) da) -1)
-       (linmodel-gyrostat-value (linmodel-solid-momentum solid) frame))))
+       (if (linmodel-solid-momentum solid)
+           (linmodel-along-turning (linmodel-solid-momentum solid) frame)
+           0))))
 
 (defun linmodel-trace-value (moments columns)
   "trace(A' J A'^T), A' of the COLUMNS."
@@ -62,12 +66,11 @@
         for u in columns
         sum (forms-fixed-dot u (linmodel-fixed-combination columns row))))
 
-(defun linmodel-gyrostat-value (momentum frame)
-  (if (null momentum)
-      0
-      (let ((a (linmodel-frame-cosines frame)) (da (linmodel-frame-cosine-rates frame)))
-        (flet ((skew (i j) (forms-fixed-dot (nth i a) (nth j da))))
-          (forms-fixed-dot momentum (list (skew 2 1) (skew 0 2) (skew 1 0)))))))
+(defun linmodel-along-turning (vector frame)
+  "VECTOR.w, both in axes of the FRAME."
+  (let ((a (linmodel-frame-cosines frame)) (da (linmodel-frame-cosine-rates frame)))
+    (flet ((skew (i j) (forms-fixed-dot (nth i a) (nth j da))))
+      (forms-fixed-dot vector (list (skew 2 1) (skew 0 2) (skew 1 0))))))
 
 (defun linmodel-weight-value (solid frame gravity)
   (forms-fixed-times
@@ -78,40 +81,39 @@
                      (linmodel-fixed-combination (linmodel-frame-cosines frame)
                                                  (linmodel-solid-centre solid))))))
 
-(defun linmodel-value-of (scene v gravity base kinetic)
-  "The function of points whose value is T (where KINETIC is not nil) plus the weight's U; masses
-and tensors are those at the point BASE."
-  (destructuring-bind (links bodies) (cddr scene)
-    (let ((solids (mapcar (lambda (body) (linmodel-solid-at body base)) (cdr bodies)))
-          (gravity (linmodel-fixed-vector gravity base)))
-      (lambda (point)
-        (let ((frames (linmodel-frames-at (cdr links) (linmodel-rates-at v point) point)))
-          (loop for solid in solids
-                for frame = (aref frames (linmodel-solid-link solid))
-                sum (if kinetic (linmodel-kinetic-value solid frame) 0)
-                sum (linmodel-weight-value solid frame gravity)))))))
+(defun linmodel-value-of (scene v base what)
+  "The function of points whose value is T, U or L, as WHAT says, U being the weight's; masses and
+tensors are those at the point BASE."
+  (let ((solids (mapcar (lambda (body) (linmodel-solid-at body base))
+                        (cdr (linmodel-scene-bodies scene))))
+        (links (cdr (linmodel-scene-links scene)))
+        (gravity (linmodel-fixed-vector (linmodel-gravity scene) base))
+        (kinetic (not (eq what '|$u|)))
+        (weight (not (eq what '|$t|))))
+    (lambda (point)
+      (let ((frames (linmodel-frames-at links (linmodel-rates-at v point) point)))
+        (loop for solid in solids
+              for frame = (aref frames (linmodel-solid-link solid))
+              sum (if kinetic (linmodel-kinetic-value solid frame) 0)
+              sum (if weight (linmodel-weight-value solid frame gravity) 0))))))
 
-(defun linmodel-rates-at (v point)
-  (cons (ash 1 forms-digits) (mapcar (lambda (x) (forms-variable-value x point)) v)))
+;;; For Maxima; V are the plain symbols of the velocities.
 
-;;; For Maxima.
-
-(defun $linmodel_check_value (how found scene v gravity kinetic)
-  "FOUND against T, where KINETIC is true, and the weight's U in fixed axes."
+(defun $linmodel_check_value (how found scene v what)
+  "FOUND against T or the weight's U, as WHAT says, in fixed axes."
   (let ((point (forms-new-point t)))
     (forms-verdict how
                    (catch 'forms-no-value (forms-fixed-value found point))
                    (catch 'forms-no-value
-                     (funcall (linmodel-value-of scene (cdr v) gravity point kinetic) point))
+                     (funcall (linmodel-value-of scene (cdr v) point what) point))
                    point)))
 
-(defun $linmodel_check_mass_form (residuals scene gravity actions v a)
+(defun $linmodel_check_mass_form (residuals scene actions v a)
   "The RESIDUALS of M a = f against T and U in fixed axes; ACTIONS: [U, R, [Q_1, ..]] beside these."
   (destructuring-bind (potential dissipation forces) (cdr actions)
-    (let* ((trial (forms-new-trial (cdr (second scene)) (cdr v) (cdr a)))
+    (let* ((trial (forms-new-trial (cdr (linmodel-scene-coordinates scene)) (cdr v) (cdr a)))
            (point (forms-trial-point trial))
-           (function (catch 'forms-no-value
-                       (linmodel-value-of scene (cdr v) gravity point t))))
+           (function (catch 'forms-no-value (linmodel-value-of scene (cdr v) point '|$l|))))
       (multiple-value-bind (found expected)
           (and function
                (forms-both-sides trial (cdr residuals)
@@ -121,11 +123,11 @@ and tensors are those at the point BASE."
         (forms-verdict "d/dt dL/dq' - dL/dq as quotients of differences of L in fixed axes"
                        found expected point)))))
 
-(defun $linmodel_is_lagrangian (function scene v gravity potential)
+(defun $linmodel_is_lagrangian (function scene v potential)
   "Whether FUNCTION is T + U at a random point, U the weight's and POTENTIAL."
   (let* ((point (forms-new-point t))
          (found (catch 'forms-no-value (forms-fixed-value function point)))
          (expected (catch 'forms-no-value
-                     (+ (funcall (linmodel-value-of scene (cdr v) gravity point t) point)
+                     (+ (funcall (linmodel-value-of scene (cdr v) point '|$l|) point)
                         (forms-fixed-value potential point)))))
     (and found expected (not (forms-differ-p found expected)))))

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/value"))
+  (core-require "forms/value" "linmodel/scene_records"))
 
 (defstruct linmodel-frame cosines cosine-rates place velocity)
 
@@ -41,27 +41,28 @@
     (loop for link in links
           for k from 1
           do (setf (aref frames k)
-                   (linmodel-next-frame link (aref frames (third link)) rates point)))
+                   (linmodel-next-frame link (aref frames (linmodel-link-parent link)) rates
+                                        point)))
     frames))
 
 (defun linmodel-next-frame (link parent rates point)
-  (destructuring-bind (turns joint rows) (cdddr link)
-    (let* ((joint (linmodel-fixed-vector joint point))
-           (a (linmodel-frame-cosines parent))
-           (da (linmodel-frame-cosine-rates parent))
-           (relative (mapcar (lambda (row) (linmodel-rate-at row rates point)) (cdr rows)))
-           (frame (make-linmodel-frame
-                   :place (linmodel-fixed-plus (linmodel-frame-place parent)
-                                               (linmodel-fixed-combination a joint))
-                   :velocity (linmodel-fixed-plus
-                              (linmodel-frame-velocity parent)
-                              (linmodel-fixed-plus (linmodel-fixed-combination da joint)
-                                                   (linmodel-fixed-combination a relative))))))
-      (dolist (turn (cdr turns))
-        (multiple-value-setq (a da) (linmodel-turned-columns a da turn rates point)))
-      (setf (linmodel-frame-cosines frame) a
-            (linmodel-frame-cosine-rates frame) da)
-      frame)))
+  (let* ((joint (linmodel-fixed-vector (linmodel-link-joint link) point))
+         (a (linmodel-frame-cosines parent))
+         (da (linmodel-frame-cosine-rates parent))
+         (relative (mapcar (lambda (row) (linmodel-rate-at row rates point))
+                           (cdr (linmodel-link-rows link))))
+         (frame (make-linmodel-frame
+                 :place (linmodel-fixed-plus (linmodel-frame-place parent)
+                                             (linmodel-fixed-combination a joint))
+                 :velocity (linmodel-fixed-plus
+                            (linmodel-frame-velocity parent)
+                            (linmodel-fixed-plus (linmodel-fixed-combination da joint)
+                                                 (linmodel-fixed-combination a relative))))))
+    (dolist (turn (cdr (linmodel-link-turns link)))
+      (multiple-value-setq (a da) (linmodel-turned-columns a da turn rates point)))
+    (setf (linmodel-frame-cosines frame) a
+          (linmodel-frame-cosine-rates frame) da)
+    frame))
 
 (defun linmodel-rate-at (row rates point)
   (let ((sum 0))
@@ -73,40 +74,22 @@
 (defun linmodel-turned-columns (a da turn rates point)
   "Columns i and j become c i + s j and c j - s i; the derivatives of these by the angle are the new
 column j and the new column i with the other sign."
-  (destructuring-bind (axis angle row) (cdr turn)
-    (let* ((i (mod axis 3)) (j (mod (1+ axis) 3))
-           (a (copy-list a)) (da (copy-list da))
-           (angle (forms-fixed-value angle point))
-           (s (forms-function-value '((%sin)) (list angle) point))
-           (c (forms-function-value '((%cos)) (list angle) point))
-           (rate (linmodel-rate-at row rates point)))
-      (flet ((sum (x y u v) (linmodel-fixed-combination (list x y) (list u v))))
-        (psetf (nth i a) (sum (nth i a) (nth j a) c s)
-               (nth j a) (sum (nth i a) (nth j a) (- s) c)
-               (nth i da) (sum (nth i da) (nth j da) c s)
-               (nth j da) (sum (nth i da) (nth j da) (- s) c))
-        (setf (nth i da) (sum (nth i da) (nth j a) (ash 1 forms-digits) rate)
-              (nth j da) (sum (nth j da) (nth i a) (ash 1 forms-digits) (- rate))))
-      (values a da))))
+  (let* ((axis (linmodel-turn-axis turn))
+         (i (mod axis 3)) (j (mod (1+ axis) 3))
+         (a (copy-list a)) (da (copy-list da))
+         (angle (forms-fixed-value (linmodel-turn-angle turn) point))
+         (s (forms-function-value '((%sin)) (list angle) point))
+         (c (forms-function-value '((%cos)) (list angle) point))
+         (rate (linmodel-rate-at (linmodel-turn-row turn) rates point)))
+    (flet ((sum (x y u v) (linmodel-fixed-combination (list x y) (list u v))))
+      (psetf (nth i a) (sum (nth i a) (nth j a) c s)
+             (nth j a) (sum (nth i a) (nth j a) (- s) c)
+             (nth i da) (sum (nth i da) (nth j da) c s)
+             (nth j da) (sum (nth i da) (nth j da) (- s) c))
+      (setf (nth i da) (sum (nth i da) (nth j a) (ash 1 forms-digits) rate)
+            (nth j da) (sum (nth j da) (nth i a) (ash 1 forms-digits) (- rate))))
+    (values a da)))
 
-;;; For Maxima.
-
-(defun linmodel-long-float (x) ($bfloat (div x (ash 1 forms-digits))))
-
-(defun linmodel-matrix-of-columns (columns)
-  (cons '($matrix simp)
-        (apply #'mapcar (lambda (&rest row) (cons '(mlist simp) (mapcar #'linmodel-long-float row)))
-               columns)))
-
-(defun $linmodel_judged_frames (links rates)
-  "For each of the LINKS, in numbers, [A, A', r, r'] as matrices of long floats."
-  (let* ((point (forms-new-point nil))
-         (rates (linmodel-fixed-vector rates point)))
-    (cons '(mlist simp)
-          (loop for frame across (subseq (linmodel-frames-at (cdr links) rates point) 1)
-                collect (cons '(mlist simp)
-                              (mapcar #'linmodel-matrix-of-columns
-                                      (list (linmodel-frame-cosines frame)
-                                            (linmodel-frame-cosine-rates frame)
-                                            (list (linmodel-frame-place frame))
-                                            (list (linmodel-frame-velocity frame)))))))))
+(defun linmodel-rates-at (v point)
+  "1 and the values of the velocities V."
+  (cons (ash 1 forms-digits) (mapcar (lambda (x) (forms-variable-value x point)) v)))

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/inertia" "linmodel/rates"))
+  (core-require "linmodel/twists" "linmodel/rate_rows"))
 
 ;;; The state of motion: the names of the coordinates, their velocities and accelerations as
 ;;; elements.
@@ -44,24 +44,24 @@
 
 (defstruct linmodel-joint parent turns drifts back place rows row-drifts twists bodies)
 
-(defun linmodel-read-joint (a link k bodies state)
+(defun linmodel-joint-of (a link k bodies state)
   (flet ((drifts (rows) (mapcar (lambda (row) (linmodel-row-drift a row state)) rows)))
-    (let ((turns (linmodel-link-turns a link)))
+    (let ((turns (linmodel-lift-turns a link)))
       (make-linmodel-joint
        :parent (linmodel-link-parent link)
        :turns turns
-       :drifts (drifts (mapcar #'fourth (cdr (fourth link))))
+       :drifts (drifts (mapcar #'linmodel-turn-row (cdr (linmodel-link-turns link))))
        :back (linmodel-back-turns a turns)
-       :place (linmodel-link-joint a link)
-       :rows (linmodel-link-rows a link)
-       :row-drifts (drifts (cdr (sixth link)))
+       :place (linmodel-lift-place a link)
+       :rows (linmodel-lift-rows a link)
+       :row-drifts (drifts (cdr (linmodel-link-rows link)))
        :twists (linmodel-own-twists a link turns (length (linmodel-state-names state)))
-       :bodies (remove k bodies :key #'linmodel-body-link :test-not #'eql)))))
+       :bodies (remove k bodies :key #'linmodel-lifted-link :test-not #'eql)))))
 
 (defun linmodel-own-twists (a link turns n)
   "The list of (i w . v), i from 1 to N, of LINK on a parent at rest."
-  (let ((place (linmodel-link-joint a link)) (rows (linmodel-link-rows a link)))
-    (loop for i in (linmodel-moving-indices (append rows (mapcar #'linmodel-turn-row turns)) n)
+  (let ((place (linmodel-lift-place a link)) (rows (linmodel-lift-rows a link)))
+    (loop for i in (linmodel-moving-indices (append rows (mapcar #'linmodel-rotation-row turns)) n)
           collect (cons i (linmodel-carried-twist a i (linmodel-twist-of i '())
                                                   turns place rows)))))
 
@@ -74,18 +74,19 @@
             unless (eql x 0) do (setf (aref moving i) t)))
     (loop for i from 1 to n when (aref moving i) collect i)))
 
-(defun linmodel-read-bodies (a bodies)
-  (mapcar (lambda (body) (linmodel-read-body a body)) (cdr bodies)))
-
-(defun linmodel-read-joints (a links bodies state)
+(defun linmodel-joints (a links bodies state)
   "The vector of the joints, the first place left empty."
-  (let ((bodies (linmodel-read-bodies a bodies)))
+  (let ((bodies (linmodel-lift-bodies a bodies)))
     (coerce (cons nil (loop for link in (cdr links)
                             for k from 1
-                            collect (linmodel-read-joint a link k bodies state)))
+                            collect (linmodel-joint-of a link k bodies state)))
             'vector)))
 
 ;;; Outwards.
+
+(defun linmodel-motion-acceleration (motion)
+  "That of O_k; a motion is (w e a)."
+  (third motion))
 
 (defun linmodel-row-acceleration (a row drift state)
   (linmodel-plus a (linmodel-row-sum a (rest row) (linmodel-state-accelerations state)) drift))
@@ -109,7 +110,7 @@
 
 (defun linmodel-turned-motion (a turn drift w e state)
   "W and E in the axes of TURN, its own rate and acceleration added."
-  (let* ((row (linmodel-turn-row turn))
+  (let* ((row (linmodel-rotation-row turn))
          (w (linmodel-turned a turn w))
          (rate (linmodel-along turn (linmodel-row-velocity a row state)))
          (change (linmodel-along turn (linmodel-row-acceleration a row drift state))))
@@ -120,7 +121,7 @@
 
 (defun linmodel-along (turn x)
   "The vector X along the axis of TURN."
-  (loop for axis from 1 to 3 collect (if (= axis (linmodel-turn-axis turn)) x 0)))
+  (loop for axis from 1 to 3 collect (if (= axis (linmodel-rotation-axis turn)) x 0)))
 
 (defun linmodel-motions (a joints state gravity)
   (let ((motions (make-array (length joints))))
@@ -139,15 +140,15 @@
   "a + e x c + w x (w x c)"
   (destructuring-bind (w e acceleration) motion
     (flet ((plus (u v) (linmodel-vector-plus a u v)) (cross (u v) (linmodel-cross a u v)))
-      (let ((c (linmodel-body-centre body)))
+      (let ((c (linmodel-lifted-centre body)))
         (plus acceleration (plus (cross e c) (cross w (cross w c))))))))
 
 (defun linmodel-turning-moment (a body motion)
   "Theta e + w x (Theta w + h)"
   (destructuring-bind (w e acceleration) motion
     (declare (ignore acceleration))
-    (let ((tensor (or (linmodel-body-joint-inertia body) (linmodel-body-centre-inertia body)))
-          (momentum (linmodel-body-momentum body)))
+    (let ((tensor (or (linmodel-lifted-joint-inertia body) (linmodel-lifted-centre-inertia body)))
+          (momentum (linmodel-lifted-momentum body)))
       (flet ((tensor-times (v) (if tensor (linmodel-matrix-times a tensor v) (list 0 0 0))))
         (linmodel-vector-plus
          a (tensor-times e)
@@ -155,9 +156,10 @@
                          (linmodel-vector-plus a (tensor-times w) (or momentum (list 0 0 0)))))))))
 
 (defun linmodel-body-load (a body motion)
-  (let* ((m (linmodel-body-mass body)) (c (linmodel-body-centre body))
+  (let* ((m (linmodel-lifted-mass body)) (c (linmodel-lifted-centre body))
          (force (linmodel-vector-times a m (linmodel-centre-acceleration a body motion)))
-         (arm (if (linmodel-body-joint-inertia body)
-                  (linmodel-vector-times a m (linmodel-cross a c (third motion)))
+         (arm (if (linmodel-lifted-joint-inertia body)
+                  (linmodel-vector-times
+                   a m (linmodel-cross a c (linmodel-motion-acceleration motion)))
                   (linmodel-cross a c force))))
     (cons (linmodel-vector-plus a (linmodel-turning-moment a body motion) arm) force)))

@@ -3,55 +3,58 @@
 ;;; x_j = (w_j . v_j) of a body, its bias accelerations e, a (of O_k), a_C and its mass m
 ;;;     M_ij = sum over bodies of (x_i, x_j),
 ;;;     f_j = given_j - sum over bodies of (m u_j.a_C + w_j.(Theta e + w x (Theta w + h))),
-;;; (x, y) as in inertia.lisp, u_j = v_j + w_j x c with Theta about the centre of mass; for Theta
+;;; (x, y) as in kinetic.lisp, u_j = v_j + w_j x c with Theta about the centre of mass; for Theta
 ;;; about O_k u_j.a_C is v_j.a_C + (w_j x c).a. given_j are the forces that no constant field gives,
 ;;; dU/dq - dR/dq' + Q; a constant field enters as an acceleration of the fixed axes.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/motions"))
+  (core-require "linmodel/motions" "linmodel/kinetic"))
 
 (defun linmodel-projected-loads (a twists bodies motions n)
   "The list of what the bodies take of the forces, j from 1 to N."
   (let ((found (make-array (1+ n) :initial-element 0)))
     (dolist (body bodies (cdr (coerce found 'list)))
-      (let* ((motion (aref motions (linmodel-body-link body)))
+      (let* ((motion (aref motions (linmodel-lifted-link body)))
              (centre (linmodel-centre-acceleration a body motion))
              (moment (linmodel-turning-moment a body motion)))
-        (loop for (j . twist) in (nth (1- (linmodel-body-link body)) twists)
+        (loop for (j . twist) in (nth (1- (linmodel-lifted-link body)) twists)
               do (setf (aref found j)
                        (linmodel-sum a (aref found j)
-                                     (linmodel-times a (linmodel-body-mass body)
+                                     (linmodel-times a (linmodel-lifted-mass body)
                                                      (linmodel-along-centre a body twist centre
                                                                             motion))
                                      (linmodel-dot a (car twist) moment))))))))
 
 (defun linmodel-along-centre (a body twist centre motion)
   "u_j.a_C, CENTRE being a_C"
-  (if (linmodel-body-joint-inertia body)
+  (if (linmodel-lifted-joint-inertia body)
       (linmodel-plus a (linmodel-dot a (cdr twist) centre)
-                     (linmodel-dot a (linmodel-cross a (car twist) (linmodel-body-centre body))
-                                   (third motion)))
+                     (linmodel-dot a (linmodel-cross a (car twist) (linmodel-lifted-centre body))
+                                   (linmodel-motion-acceleration motion)))
       (linmodel-dot a (linmodel-centre-velocity a body twist) centre)))
 
-(defun linmodel-projection (a scene gravity given velocities)
-  "Rows of M and list of f as elements; the SCENE is [coordinates, links, bodies]."
-  (destructuring-bind (q links bodies) (cdr scene)
-    (let* ((n (length (cdr q)))
-           (state (make-linmodel-state :names (cdr q)
-                                       :velocities (linmodel-lift-vector a velocities)
-                                       :accelerations (loop repeat n collect 0)))
-           (twists (linmodel-all-twists a (cdr links) n))
-           (joints (linmodel-read-joints a links bodies state))
-           (bodies (linmodel-read-bodies a bodies))
-           (form (linmodel-form-of-twists a twists bodies n))
-           (motions (linmodel-motions a joints state (linmodel-lift-vector a gravity))))
-      (values (loop for i from 1 to n
-                    collect (loop for j from 1 to n collect (aref form (min i j) (max i j))))
-              (mapcar (lambda (given load) (linmodel-plus a given (linmodel-minus a load)))
-                      (linmodel-lift-vector a given)
-                      (linmodel-projected-loads a twists bodies motions n))))))
+(defun linmodel-projection (a scene given velocities)
+  "Rows of M and list of f as elements."
+  (let* ((q (cdr (linmodel-scene-coordinates scene)))
+         (n (length q))
+         (links (linmodel-scene-links scene))
+         (bodies (linmodel-scene-bodies scene))
+         (state (make-linmodel-state :names q
+                                     :velocities (linmodel-lift-vector a velocities)
+                                     :accelerations (loop repeat n collect 0)))
+         (joints (linmodel-joints a links bodies state))
+         (twists (linmodel-all-twists a (cdr links) n))
+         (bodies (linmodel-lift-bodies a bodies))
+         (form (linmodel-form-of-twists a twists bodies n))
+         (gravity (linmodel-lift-vector a (linmodel-gravity scene)))
+         (motions (linmodel-motions a joints state gravity)))
+    (values (loop for i from 1 to n
+                  collect (loop for j from 1 to n collect (aref form (min i j) (max i j))))
+            (mapcar (lambda (given load) (linmodel-plus a given (linmodel-minus a load)))
+                    (linmodel-lift-vector a given)
+                    (linmodel-projected-loads a twists bodies motions n)))))
 
 (defun linmodel-residuals (a rows right accelerations)
   "M q'' - f"
@@ -61,24 +64,24 @@
 
 ;;; For Maxima.
 
-(defun $linmodel_projected_mass_form (scene gravity given velocities form)
+(defun $linmodel_projected_mass_form (scene given velocities form)
   "[M, f] in the names of the VELOCITIES."
   (linmodel-compute
    form
    (lambda (a)
-     (multiple-value-bind (rows right) (linmodel-projection a scene gravity given velocities)
+     (multiple-value-bind (rows right) (linmodel-projection a scene given velocities)
        (list '(mlist simp)
              (cons '($matrix simp) (mapcar (lambda (row) (linmodel-lower-vector a row)) rows))
              (linmodel-lower-vector a right))))
-   (linmodel-plane-p (third scene))))
+   (linmodel-plane-p (linmodel-scene-links scene))))
 
-(defun $linmodel_projected_equations (scene gravity given velocities accelerations form)
+(defun $linmodel_projected_equations (scene given velocities accelerations form)
   "[e_1, ..] of M q'' - f in the names of the VELOCITIES and ACCELERATIONS."
   (let ((*algebra-velocities* (append (cdr velocities) (cdr accelerations))))
     (linmodel-compute
      form
      (lambda (a)
-       (multiple-value-bind (rows right) (linmodel-projection a scene gravity given velocities)
+       (multiple-value-bind (rows right) (linmodel-projection a scene given velocities)
          (linmodel-lower-vector
           a (linmodel-residuals a rows right (linmodel-lift-vector a accelerations)))))
-     (linmodel-plane-p (third scene)))))
+     (linmodel-plane-p (linmodel-scene-links scene)))))

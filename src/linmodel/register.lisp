@@ -3,73 +3,87 @@
 
 (in-package :maxima)
 
+;;; The scene is what everything is computed from; `values' are no part of it, since no result
+;;; depends on them, but remarks about results do
+
+(core-middle "scene" '("mechanical") "linmodel/scene" "linmodel_read_scene" "description")
+(core-rule "remark_values" '("mechanical") "linmodel/scene" "linmodel_remark_values" "description")
+
+;;; What the forms take beside L: the keys of [system] and what springs, forces, torques and rotors
+;;; add to them
+
+(core-rule "coordinates" '("mechanical") "linmodel/rotors" "linmodel_coordinates" "scene")
+(core-rule "rayleigh" '("mechanical") "linmodel/generalized_forces" "linmodel_rayleigh" "scene"
+           '("form" $auto))
+(core-rule "forces" '("mechanical") "linmodel/generalized_forces" "linmodel_forces" "scene"
+           '("form" $auto))
+(core-rule "momenta" '("mechanical") "linmodel/rotors" "linmodel_momenta" "scene")
+(core-rule "given_keys" '("mechanical") "linmodel/scene_records" "linmodel_scene_given" "scene")
+(core-rule-field "constraints" '("mechanical") "given_keys" "constraints")
+(core-rule-field "nonholonomic" '("mechanical") "given_keys" "nonholonomic")
+
+;;; What may be constant by symmetry of the whole system
+
+(core-rule "axis_momenta" '("mechanical") "linmodel/axis_momenta" "linmodel_axis_momenta" "scene"
+           '("form" $auto))
+
+;;; Functions
+
+(defparameter *linmodel-field-inputs* '("scene" "remark_values"))
+
 (core-public "Kinematics" :kinds '("mechanical"))
-(core-rule "Kinematics" '("mechanical") "linmodel/lagrangian" "linmodel_kinematics" "description"
-  '("form" $auto))
+(core-rule "Kinematics" '("mechanical") "linmodel/functions" "linmodel_kinematics" "scene"
+           '("form" $auto))
 
 (core-public "KineticEnergy" :kinds '("mechanical"))
-(core-rule "KineticEnergy" '("mechanical") "linmodel/lagrangian" "linmodel_kinetic_energy"
-  "description" '("form" $auto))
+(core-rule "KineticEnergy" '("mechanical") "linmodel/functions" "linmodel_kinetic_energy" "scene"
+           '("form" $auto))
 
 (core-public "ForceFunction" :kinds '("mechanical"))
-(core-rule "ForceFunction" '("mechanical") "linmodel/lagrangian" "linmodel_force_function"
-  "description" '("form" $auto))
+(core-rule "ForceFunction" '("mechanical") "linmodel/functions" "linmodel_force_function"
+           "scene" "remark_values" '("form" $auto))
 
 (core-public "Lagrangian" :kinds '("mechanical"))
-(core-rule "Lagrangian" '("mechanical") "linmodel/lagrangian" "linmodel_lagrangian" "description"
-  '("form" $auto))
-
-(core-rule-given '("form" $program) "KineticEnergy" '("mechanical")
-  "linmodel/energy_program" "linmodel_kinetic_program" "description" '("laws" ((mlist simp))))
-(core-rule-given '("form" $program) "ForceFunction" '("mechanical")
-  "linmodel/energy_program" "linmodel_force_program" "description" '("laws" ((mlist simp))))
-(core-rule-given '("form" $program) "Lagrangian" '("mechanical")
-  "linmodel/energy_program" "linmodel_lagrangian_program" "description" '("laws" ((mlist simp))))
-
-(defparameter *linmodel-program-inputs* '("description" "actions" ("laws" ((mlist simp)))))
-
-(dolist (option '(nil ("form" $program)))
-  (apply #'core-rule-given option "EquationProgram" '("mechanical") "linmodel/equation_program"
-         "linmodel_equation_program"
-         (append *linmodel-program-inputs* '(("solved" nil) ("inverse" nil)))))
-(apply #'core-rule-given '(:edited "Lagrangian") "EquationProgram" '("mechanical")
-       "forms/equation_program" "forms_equation_program" "Lagrangian" "coordinates"
-       (append (rest *linmodel-program-inputs*) '(("solved" nil) ("inverse" nil))))
-(apply #'core-rule-given '("form" $program) "MassForm" '("mechanical")
-       "linmodel/equation_program" "linmodel_mass_program" *linmodel-program-inputs*)
-(apply #'core-rule-given '("form" $program) "LagrangeEquations" '("mechanical")
-       "linmodel/equation_program" "linmodel_lagrange_program"
-       (append *linmodel-program-inputs* '("equation_options")))
+(core-rule "Lagrangian" '("mechanical") "linmodel/functions" "linmodel_lagrangian"
+           "scene" "remark_values" '("form" $auto))
 
 ;;; Equations by projection; a file has Lagrange's function as a step, which may be edited
 
 (loop for (target function options) in '(("MassForm" "linmodel_mass_form" ("form" $auto))
                                          ("LagrangeEquations" "linmodel_lagrange_equations"
                                           "equation_options"))
-      for inputs = (list "description" "actions" options)
+      for inputs = (append *linmodel-field-inputs* (list "actions" options))
       do (apply #'core-rule target '("mechanical") "linmodel/mass_form" function inputs)
          (apply #'core-rule-given :file target '("mechanical") "linmodel/mass_form"
                 (concatenate 'string function "_with") "Lagrangian" inputs))
+
+;;; Programs
+
+(core-rule-given '("form" $program) "KineticEnergy" '("mechanical") "linmodel/programs"
+                 "linmodel_kinetic_program" "scene" '("laws" ((mlist simp))))
+(core-rule-given '("form" $program) "ForceFunction" '("mechanical") "linmodel/programs"
+                 "linmodel_force_program" "scene" "remark_values" '("laws" ((mlist simp))))
+(core-rule-given '("form" $program) "Lagrangian" '("mechanical") "linmodel/programs"
+                 "linmodel_lagrangian_program" "scene" "remark_values" '("laws" ((mlist simp))))
+
+(defparameter *linmodel-program-inputs*
+  (append *linmodel-field-inputs* '("actions" ("laws" ((mlist simp))))))
+
+(dolist (option '(nil ("form" $program)))
+  (apply #'core-rule-given option "EquationProgram" '("mechanical") "linmodel/programs"
+         "linmodel_equation_program"
+         (append *linmodel-program-inputs* '(("solved" nil) ("inverse" nil)))))
+(core-rule-given '(:edited "Lagrangian") "EquationProgram" '("mechanical")
+                 "forms/equation_program" "forms_equation_program" "Lagrangian" "coordinates"
+                 "actions" '("laws" ((mlist simp))) '("solved" nil) '("inverse" nil))
+(apply #'core-rule-given '("form" $program) "MassForm" '("mechanical") "linmodel/programs"
+       "linmodel_mass_program" *linmodel-program-inputs*)
+(apply #'core-rule-given '("form" $program) "LagrangeEquations" '("mechanical")
+       "linmodel/programs" "linmodel_lagrange_program"
+       (append *linmodel-program-inputs* '("equation_options")))
 
 ;;; Equations in quasi-velocities
 
 (core-public "EulerPoisson" :kinds '("mechanical"))
 (core-rule "EulerPoisson" '("mechanical") "linmodel/euler_poisson" "linmodel_euler_poisson"
-  "description" '("form" $auto))
-
-;;; What the forms take beside L: the keys of [system] and what springs, forces, torques and rotors
-;;; add to them
-
-(core-rule "coordinates" '("mechanical") "linmodel/loads" "linmodel_coordinates" "description")
-(core-rule "rayleigh" '("mechanical") "linmodel/loads" "linmodel_rayleigh"
-  "description" '("form" $auto))
-(core-rule "forces" '("mechanical") "linmodel/loads" "linmodel_forces"
-  "description" '("form" $auto))
-(core-rule "constraints" '("mechanical") "linmodel/loads" "linmodel_constraints" "description")
-(core-rule "nonholonomic" '("mechanical") "linmodel/loads" "linmodel_nonholonomic" "description")
-(core-rule "momenta" '("mechanical") "linmodel/loads" "linmodel_momenta" "description")
-
-;;; What may be constant by symmetry of the whole system
-
-(core-rule "axis_momenta" '("mechanical") "linmodel/axes" "linmodel_axis_momenta"
-  "description" '("form" $auto))
+           "scene" "remark_values" '("form" $auto))

@@ -5,47 +5,67 @@
 ;;; the joint and u its relative velocity, in axes j:
 ;;;     v := v + w x r + u,   then for each simple rotation about axis s by psi:
 ;;;     w, v := turned,   w_s := w_s + psi'.
-;;; A link comes as the list [name, index of the parent, turns, joint, rows of u], a turn as [axis,
-;;; angle, row of psi']; a row [c_0, c_1, .., c_n] means c_0 + sum c_i q_i'.
-;;; See linmodel-link-twists first.
+;;; Links, turns and bodies are those of scene_records.lisp, lifted into an arithmetic where they
+;;; are used. See linmodel-link-twists first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/arithmetic"))
+  (core-require "linmodel/arithmetic" "linmodel/scene_records"))
 
-(defstruct linmodel-turn axis angle sine cosine row)
+;;; Turns, joints and bodies in elements of an arithmetic.
 
-(defun linmodel-read-turn (a turn)
-  (destructuring-bind (axis angle row) (cdr turn)
-    (make-linmodel-turn :axis axis
-                        :angle angle
-                        :sine (funcall (linmodel-arithmetic-sine a) angle)
-                        :cosine (funcall (linmodel-arithmetic-cosine a) angle)
-                        :row (linmodel-lift-vector a row))))
+(defstruct linmodel-rotation axis angle sine cosine row) ; the angle as it stands
 
-(defun linmodel-link-parent (link) (third link))
+(defun linmodel-lift-turn (a turn)
+  (let ((angle (linmodel-turn-angle turn)))
+    (make-linmodel-rotation :axis (linmodel-turn-axis turn)
+                            :angle angle
+                            :sine (funcall (linmodel-arithmetic-sine a) angle)
+                            :cosine (funcall (linmodel-arithmetic-cosine a) angle)
+                            :row (linmodel-lift-vector a (linmodel-turn-row turn)))))
 
-(defun linmodel-link-turns (a link)
-  (mapcar (lambda (turn) (linmodel-read-turn a turn)) (cdr (fourth link))))
+(defun linmodel-lift-turns (a link)
+  (mapcar (lambda (turn) (linmodel-lift-turn a turn)) (cdr (linmodel-link-turns link))))
 
-(defun linmodel-link-joint (a link) (linmodel-lift-vector a (fifth link)))
+(defun linmodel-lift-place (a link) (linmodel-lift-vector a (linmodel-link-joint link)))
 
-(defun linmodel-link-rows (a link)
-  (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr (sixth link))))
+(defun linmodel-lift-rows (a link)
+  (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr (linmodel-link-rows link))))
+
+(defstruct (linmodel-lifted-body (:conc-name linmodel-lifted-))
+  link mass centre joint-inertia centre-inertia momentum) ; vectors and rows of tensors as lists
+
+(defun linmodel-lift-body (a body)
+  (flet ((tensor (tensor)
+           (and tensor (mapcar (lambda (row) (linmodel-lift-vector a row)) (cdr tensor)))))
+    (let ((momentum (linmodel-body-momentum body)))
+      (make-linmodel-lifted-body
+       :link (linmodel-body-link body)
+       :mass (linmodel-lift a (linmodel-body-mass body))
+       :centre (linmodel-lift-vector a (linmodel-body-centre body))
+       :joint-inertia (tensor (linmodel-body-joint-inertia body))
+       :centre-inertia (tensor (linmodel-body-centre-inertia body))
+       :momentum (and momentum (linmodel-lift-vector a momentum))))))
+
+(defun linmodel-lift-bodies (a bodies)
+  (mapcar (lambda (body) (linmodel-lift-body a body)) (cdr bodies)))
+
+;;; Turned vectors.
 
 (defun linmodel-plane-p (links)
   "Whether all LINKS turn about one axis."
-  (let ((axes (loop for link in (cdr links) append (mapcar #'second (cdr (fourth link))))))
+  (let ((axes (loop for link in (cdr links)
+                    append (mapcar #'linmodel-turn-axis (cdr (linmodel-link-turns link))))))
     (every (lambda (axis) (eql axis (first axes))) axes)))
 
 (defun linmodel-turned (a turn vector)
   "The components of VECTOR in axes turned about one of them."
-  (let* ((axis (linmodel-turn-axis turn)) (i (mod axis 3)) (j (mod (1+ axis) 3))
+  (let* ((axis (linmodel-rotation-axis turn)) (i (mod axis 3)) (j (mod (1+ axis) 3))
          (x (nth i vector)) (y (nth j vector)) (components (copy-list vector)))
     (destructuring-bind (x y) (if (linmodel-arithmetic-turn a)
                                   (funcall (linmodel-arithmetic-turn a) x y
-                                           (linmodel-turn-angle turn))
+                                           (linmodel-rotation-angle turn))
                                   (linmodel-turned-pair a turn x y))
       (setf (nth i components) x (nth j components) y)
       components)))
@@ -53,7 +73,7 @@
 (defun linmodel-turned-pair (a turn x y)
   "x := c*x + s*y, y := c*y - s*x."
   (flet ((times (u v) (linmodel-times a u v)))
-    (let ((sine (linmodel-turn-sine turn)) (cosine (linmodel-turn-cosine turn)))
+    (let ((sine (linmodel-rotation-sine turn)) (cosine (linmodel-rotation-cosine turn)))
       (list (linmodel-plus a (times cosine x) (times sine y))
             (linmodel-plus a (times cosine y) (linmodel-minus a (times sine x)))))))
 
@@ -64,16 +84,16 @@
 (defun linmodel-back-turns (a turns)
   "The TURNS that lead back."
   (mapcar (lambda (turn)
-            (let ((back (copy-linmodel-turn turn)))
-              (setf (linmodel-turn-sine back) (linmodel-minus a (linmodel-turn-sine turn))
-                    (linmodel-turn-angle back) (neg (linmodel-turn-angle turn)))
+            (let ((back (copy-linmodel-rotation turn)))
+              (setf (linmodel-rotation-sine back) (linmodel-minus a (linmodel-rotation-sine turn))
+                    (linmodel-rotation-angle back) (neg (linmodel-rotation-angle turn)))
               back))
           (reverse turns)))
 
 (defun linmodel-spinning (a turn i w)
   "W with the rate of TURN that belongs to the velocity I added about the axis of the turn."
-  (let ((k (1- (linmodel-turn-axis turn))) (sum (copy-list w)))
-    (setf (nth k sum) (linmodel-plus a (nth k sum) (nth i (linmodel-turn-row turn))))
+  (let ((k (1- (linmodel-rotation-axis turn))) (sum (copy-list w)))
+    (setf (nth k sum) (linmodel-plus a (nth k sum) (nth i (linmodel-rotation-row turn))))
     sum))
 
 (defun linmodel-twist-of (i twists)
@@ -84,9 +104,9 @@
 
 (defun linmodel-link-twists (a link parent-twists n)
   "The twists of LINK that are not zero: a list of (i w . v), i from 0 to N."
-  (let ((turns (linmodel-link-turns a link))
-        (joint (linmodel-link-joint a link))
-        (rows (linmodel-link-rows a link)))
+  (let ((turns (linmodel-lift-turns a link))
+        (joint (linmodel-lift-place a link))
+        (rows (linmodel-lift-rows a link)))
     (linmodel-guarded-twists
      a
      (loop for i from 0 to n
@@ -127,7 +147,7 @@
 ;;; For Maxima.
 
 (defun $linmodel_twists (links n form)
-  "For each link the list of its twists [i, w, v]."
+  "For each link the list of its linmodel-twist."
   (linmodel-compute
    form
    (lambda (a)
@@ -139,14 +159,15 @@
 
 (defun linmodel-lower-twist (a twist)
   (destructuring-bind (i w . v) twist
-    (list '(mlist simp) i (linmodel-lower-vector a w) (linmodel-lower-vector a v))))
+    (make-linmodel-twist :index i :turning (linmodel-lower-vector a w)
+                         :moving (linmodel-lower-vector a v))))
 
 (defun $linmodel_direction_cosines (link form)
   "alpha with x_parent = alpha*x_link: its rows are the parent's axes in axes of the link."
   (linmodel-compute
    form
    (lambda (a)
-     (let ((turns (linmodel-link-turns a link)))
+     (let ((turns (linmodel-lift-turns a link)))
        (cons '($matrix simp)
              (loop for axis in '((1 0 0) (0 1 0) (0 0 1))
                    for lifted = (mapcar (linmodel-arithmetic-lift a) axis)
@@ -159,9 +180,18 @@
    (lambda (a)
      (let ((carried (linmodel-carried-vectors a links vector)) (sum 0))
        (dolist (body (cdr bodies) (funcall (linmodel-arithmetic-lower a) sum))
-         (let ((weight (linmodel-weight a body (nth (1- (second body)) carried))))
-           (setq sum (linmodel-plus a sum weight))))))
+         (setq sum (linmodel-plus a sum (linmodel-weight a body carried))))))
    (linmodel-plane-p links)))
+
+(defun $linmodel_place (links k point form)
+  "The components in fixed axes of a POINT of the link K, given in its axes."
+  (if (eql k 0)
+      point
+      (let ((bodies (list '(mlist simp)
+                          (make-linmodel-body :link k :mass 1 :centre point))))
+        (cons '(mlist simp)
+              (loop for axis in '((1 0 0) (0 1 0) (0 0 1))
+                    collect ($linmodel_weights links bodies (cons '(mlist simp) axis) form))))))
 
 (defun linmodel-carried-vectors (a links vector)
   (let ((start (cons (linmodel-lift-vector a vector) 0)))
@@ -171,11 +201,12 @@
 (defun linmodel-carried-vector (a link pair)
   "From (vector . vector.r_O) of the parent the same of LINK, the vector in its axes."
   (destructuring-bind (vector . product) pair
-    (cons (linmodel-turned-by-all a (linmodel-link-turns a link) vector)
-          (linmodel-plus a product (linmodel-dot a (linmodel-link-joint a link) vector)))))
+    (cons (linmodel-turned-by-all a (linmodel-lift-turns a link) vector)
+          (linmodel-plus a product (linmodel-dot a (linmodel-lift-place a link) vector)))))
 
-(defun linmodel-weight (a body pair)
-  (destructuring-bind (vector . product) pair
-    (let ((centre (linmodel-lift-vector a (fourth body))))
-      (linmodel-times a (linmodel-lift a (third body))
+(defun linmodel-weight (a body carried)
+  "The mass of BODY times vector.r_C, CARRIED being (vector . vector.r_O) for each link."
+  (destructuring-bind (vector . product) (nth (1- (linmodel-body-link body)) carried)
+    (let ((centre (linmodel-lift-vector a (linmodel-body-centre body))))
+      (linmodel-times a (linmodel-lift a (linmodel-body-mass body))
                       (linmodel-plus a product (linmodel-dot a vector centre))))))
