@@ -9,7 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/shortest_forms" "linmodel/general_expressions"))
+  (core-require "algebra/normal" "algebra/shortest_forms" "linmodel/general_expressions"
+                "algebra/size" "algebra/evaluate" "algebra/scan" "algebra/kernels"))
 
 (defstruct linmodel-arithmetic
   lift lower add multiply sine cosine

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/kinetic"))
+  (core-require "linmodel/kinetic" "linmodel/arithmetic" "linmodel/scene_records"
+                "linmodel/twists"))
 
 (defun linmodel-displaced (a link twist)
   "The displacement TWIST of the parent's point O, in the parent's axes, carried to LINK."

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/frames" "forms/judge"))
+  (core-require "linmodel/frames" "forms/judge" "forms/agreement" "linmodel/scene_records"
+                "forms/fixed" "forms/value"))
 
 (defstruct linmodel-solid link mass centre moments momentum) ; numbers; moments: rows of J, or nil
 

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/value" "linmodel/scene_records"))
+  (core-require "forms/value" "linmodel/scene_records" "forms/fixed"))
 
 (defstruct linmodel-frame cosines cosine-rates place velocity)
 

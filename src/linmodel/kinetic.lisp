@@ -13,7 +13,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/motions"))
+  (core-require "linmodel/motions" "linmodel/twists" "linmodel/arithmetic"
+                "linmodel/scene_records" "linmodel/rate_rows"))
 
 (defun linmodel-twist-product (a body x y)
   (if (linmodel-lifted-joint-inertia body)

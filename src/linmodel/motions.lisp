@@ -9,7 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/twists" "linmodel/rate_rows"))
+  (core-require "linmodel/twists" "linmodel/rate_rows" "linmodel/arithmetic"
+                "linmodel/scene_records"))
 
 ;;; The state of motion: the names of the coordinates, their velocities and accelerations as
 ;;; elements.

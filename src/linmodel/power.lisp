@@ -8,7 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/twists" "linmodel/energy_value"))
+  (core-require "linmodel/twists" "linmodel/energy_value" "forms/value" "forms/fixed"
+                "forms/agreement" "linmodel/arithmetic" "linmodel/scene_records"
+                "linmodel/frames"))
 
 (defun linmodel-ancestors (links k)
   "The links from the fixed axes down to the link number K."

@@ -10,7 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/motions" "linmodel/kinetic"))
+  (core-require "linmodel/motions" "linmodel/kinetic" "algebra/shortest_forms" "linmodel/twists"
+                "linmodel/arithmetic" "linmodel/scene_records"))
 
 (defun linmodel-projected-loads (a twists bodies motions n)
   "The list of what the bodies take of the forces, j from 1 to N."

@@ -11,7 +11,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/arithmetic" "linmodel/scene_records"))
+  (core-require "linmodel/arithmetic" "linmodel/scene_records" "algebra/size"))
 
 ;;; Turns, joints and bodies in elements of an arithmetic.
 
