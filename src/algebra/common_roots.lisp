@@ -12,7 +12,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/evaluate" "algebra/general_form" "algebra/groebner" "algebra/kernels"
                 "algebra/normal" "algebra/readable" "algebra/relations" "algebra/scan"
-                "algebra/signature" "algebra/size"))
+                "algebra/matrices" "algebra/size"))
 
 (defparameter *algebra-most-points* 48 "dimension of the quotient ring up to which it is formed")
 (defparameter *algebra-most-exponent* 200 "exponent up to which bases are sought")

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/kernels" "algebra/normal" "algebra/evaluate"
+  (core-require "algebra/size" "algebra/kernels" "algebra/normal" "algebra/evaluate"
                 "algebra/quotient" "algebra/scan"))
 
 (defun $algebra_jacobian (es xs)

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/normal" "algebra/zero" "algebra/sign"
+  (core-require "algebra/size" "algebra/normal" "algebra/zero" "algebra/sign"
                 "algebra/sturm" "algebra/root_location"))
 
 ;;; Constants: rationals of Lisp, or expressions in normal form

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size"))
+  (core-require "algebra/size"))
 
 (defparameter *algebra-factored-degree* 300 "The degree up to which a sum is factored.")
 

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common"))
+  (core-require "algebra/size"))
 
 (defstruct (algebra-kernel (:conc-name algebra-kernel-))
   variable        ; the polynomials' own symbol

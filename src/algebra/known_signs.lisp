@@ -7,9 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size" "algebra/normal" "algebra/sign_by_parts"
-                "algebra/sign_by_proof" "algebra/factoring" "algebra/evaluate"
-                "algebra/root_kernels" "algebra/scan"))
+  (core-require "algebra/size" "algebra/normal" "algebra/sign_by_parts" "algebra/sign_by_proof"
+                "algebra/factoring" "algebra/evaluate" "algebra/root_kernels" "algebra/scan"))
 
 (defparameter *algebra-kept-knowledge* 16 "For how many lists of facts knowledge is kept.")
 (defvar *algebra-knowledges* '() "Knowledge of lists of facts used lately, newest first.")

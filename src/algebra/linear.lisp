@@ -8,9 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/minors" "algebra/zero"
-                "algebra/rank" "algebra/evaluate" "algebra/matrices" "algebra/normal"
-                "algebra/quotient" "algebra/relations" "algebra/scan"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/minors" "algebra/zero" "algebra/rank"
+                "algebra/evaluate" "algebra/matrices" "algebra/normal" "algebra/quotient"
+                "algebra/relations" "algebra/scan"))
 
 (defun $algebra_inverse_times (m b)
   "x with M x = b, b a list (x a list) or a matrix of columns (x a matrix)."

@@ -9,8 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/relations"
-                "algebra/matrices" "algebra/normal" "algebra/general_form" "algebra/quotient"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/relations" "algebra/matrices"
+                "algebra/normal" "algebra/general_form" "algebra/quotient"))
 
 ;;; The expansion. Sets of rows and of columns are bits of integers.
 

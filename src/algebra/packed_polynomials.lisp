@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common"))
+  (core-require "algebra/size"))
 
 ;;; Terms and factors of an expanded expression
 

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "algebra/program_languages" "algebra/program_evaluation"
+  (core-require "algebra/program_record" "algebra/program_languages"
                 "algebra/program_from_expressions" "algebra/program_nodes"))
 
 (defvar *algebra-part-length* 300 "Assignments in one function.")

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/program_nodes"))
+  (core-require "algebra/size" "algebra/program_nodes"))
 
 ;;; From expressions.
 

@@ -5,7 +5,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common"))
+  (core-require "algebra/size"))
 
 (defstruct algebra-language
   name comment        ; name of the language, and what begins a line of comment

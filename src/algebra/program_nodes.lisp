@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common"))
+  (core-require "algebra/size"))
 
 (defstruct algebra-node operation left right index)
 

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/relations"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/relations"))
 
 (defun algebra-readable (p)
   "A polynomial equal to P modulo the relations, short in sines and cosines."

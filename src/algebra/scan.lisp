@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/kernels" "algebra/root_kernels"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/root_kernels"))
 
 (defvar *algebra-exponential-form* nil "true: sinh and cosh become exponentials")
 

@@ -13,8 +13,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/normal"
-                "algebra/general_form" "algebra/quotient" "algebra/readable"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/normal" "algebra/general_form"
+                "algebra/quotient" "algebra/readable"))
 
 (defun $algebra_collected (e)
   "The canonical form of E, collected."

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/known_signs" "algebra/sturm"
+  (core-require "algebra/size" "algebra/known_signs" "algebra/sturm"
                 "algebra/packed_polynomials" "algebra/sign_by_parts" "algebra/sign_by_proof"))
 
 (defun algebra-names-of (e) (cdr ($listofvars e)))

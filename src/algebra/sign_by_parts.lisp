@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/zero" "algebra/constant_sign"))
+  (core-require "algebra/size" "algebra/zero" "algebra/constant_sign"))
 
 (defstruct (algebra-knowledge (:conc-name knowledge-))
   facts           ; the relations it was made from

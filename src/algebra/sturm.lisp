@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common"))
+  (core-require "algebra/size"))
 
 (defun $algebra_real_roots_between (coefficients low high)
   "How many numbers x, LOW < x <= HIGH, are roots; coefficients highest power first; the bounds are

@@ -8,9 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common" "algebra/size" "algebra/kernels" "algebra/normal"
-                "algebra/minors" "algebra/evaluate" "algebra/matrices" "algebra/quotient"
-                "algebra/readable" "algebra/relations" "algebra/scan"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/normal" "algebra/minors"
+                "algebra/evaluate" "algebra/matrices" "algebra/quotient" "algebra/readable"
+                "algebra/relations" "algebra/scan"))
 
 (defun $algebra_coefficients (p x)
   "[a_0, .., a_n], highest power first."

@@ -13,9 +13,9 @@
 ;;; add to them
 
 (core-rule "coordinates" '("mechanical") "linmodel/rotors" "linmodel_coordinates" "scene")
-(core-rule "rayleigh" '("mechanical") "linmodel/generalized_forces" "linmodel_rayleigh" "scene"
+(core-rule "rayleigh" '("mechanical") "linmodel/loads" "linmodel_rayleigh" "scene"
            '("form" $auto))
-(core-rule "forces" '("mechanical") "linmodel/generalized_forces" "linmodel_forces" "scene"
+(core-rule "forces" '("mechanical") "linmodel/loads" "linmodel_forces" "scene"
            '("form" $auto))
 (core-rule "momenta" '("mechanical") "linmodel/rotors" "linmodel_momenta" "scene")
 (core-rule "given_keys" '("mechanical") "linmodel/scene_records" "linmodel_scene_given" "scene")
