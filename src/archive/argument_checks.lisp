@@ -292,13 +292,18 @@ take; MOVING are the names that move in the archive of the call."
 (defun archive-listed-names (arguments)
   "Names that stand in lists, by themselves or on the left of an equation: what moves is one."
   (loop for argument in arguments
-        when (archive-list-p argument)
-          append (loop for item in (cdr argument)
+        for value = (if (archive-equation-p argument) (caddr argument) argument)
+        when (archive-list-p value)
+          append (loop for item in (cdr value)
                        collect (if (archive-equation-p item) (cadr item) item))))
 
 (defun archive-check-depends (arguments)
-  "An error for a name of ARGUMENTS that depends(name, t) makes move: derivatives are taken without
-that, and its terms would be missing. Coordinates may have it."
+  "An error for a name of expressions among ARGUMENTS that depends(name, t) makes move: derivatives
+are taken without that, and its terms would be missing. Coordinates may have it; for an archive it
+does not count."
+  (unless (stringp (car arguments)) (archive-check-typed-depends arguments)))
+
+(defun archive-check-typed-depends (arguments)
   (let ((moving (append (archive-listed-names arguments)
                         (loop for argument in arguments
                               append (archive-differentiated-names argument)))))
