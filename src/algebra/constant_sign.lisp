@@ -172,13 +172,26 @@
 
 (defparameter *algebra-most-bits* 30000 "binary digits that are spent on the sign of a constant")
 
+(defparameter *algebra-kept-verdicts* 300 "for how many constants the verdict is kept")
+(defvar *algebra-verdicts* (make-hash-table :test #'equal)
+  "Constant -> verdict. What is not decided took the most digits, and is asked again and again.")
+
 (defun algebra-constant-verdict (e)
   "1, -1 or 0, proved, for the real constant E; nil if it is not decided."
   (let ((number (algebra-rational-number e)))
     (if number
         (signum number)
-        (or (algebra-interval-sign-among e '(64 256))
-            (algebra-separated-sign e)))))
+        (multiple-value-bind (verdict kept) (gethash e *algebra-verdicts*)
+          (if kept verdict (algebra-keep-verdict e (algebra-new-verdict e)))))))
+
+(defun algebra-keep-verdict (e verdict)
+  (when (>= (hash-table-count *algebra-verdicts*) *algebra-kept-verdicts*)
+    (clrhash *algebra-verdicts*))
+  (setf (gethash e *algebra-verdicts*) verdict))
+
+(defun algebra-new-verdict (e)
+  (or (algebra-interval-sign-among e '(64 256))
+      (algebra-separated-sign e)))
 
 (defun algebra-interval-sign (e)
   "1 or -1 if the constant E is proved positive or negative, else nil."

@@ -57,15 +57,37 @@ nil where there is none."
       (loop for (e . sign) in (algebra-gaps *algebra-knowledge*)
             for powers = (and (not ($constantp e)) (equal (algebra-names-of e) (list x))
                               (algebra-powers-in e x))
-            do (when (and (= (length powers) 2) (every #'algebra-rational-number powers))
-                 (let* ((slope (algebra-rational-number (second powers)))
-                        (bound (- (/ (algebra-rational-number (first powers)) slope)))
-                        (sign (if (plusp slope) sign (algebra-opposite-sign sign))))
-                   (case sign
-                     ($pos (above bound t)) ($pz (above bound nil))
-                     ($neg (below bound t)) ($nz (below bound nil))
-                     ($zero (above bound nil) (below bound nil)))))))
+            do (when (and (<= 2 (length powers) 20) (every #'algebra-rational-number powers))
+                 (loop for (direction bound open) in (algebra-fact-bounds
+                                                      (algebra-numbers-of e x) sign)
+                       do (if (plusp direction) (below bound open) (above bound open))))))
     (values low low-open high high-open)))
+
+(defun algebra-fact-bounds (numbers sign)
+  "((1 or -1, bound, left out) ..): where the polynomial with the coefficients NUMBERS has not SIGN,
+beyond its last or its first real root; a root that is no short fraction is rounded outwards."
+  (let* ((p (algebra-primitive numbers))
+         (chain (algebra-sturm-chain p))
+         (reach (1+ (ceiling (reduce #'max (mapcar #'abs (cdr p))) (abs (car p)))))
+         (places (algebra-places-between chain (- reach) reach)))
+    (when places
+      (loop for direction in '(-1 1)
+            for place = (if (plusp direction) (car (last places)) (first places))
+            unless (or (eq sign '$unknown)
+                       (member (algebra-sign-far-out p direction) (algebra-sign-values sign)))
+              collect (let ((root (algebra-outermost-root chain place direction)))
+                        (list direction (or root (+ place (* direction 1/10000000)))
+                              (and root (not (member 0 (algebra-sign-values sign))))))))))
+
+(defun algebra-outermost-root (chain place direction)
+  "The root near PLACE as a fraction of 1000000, none lying beyond it; nil where it is none."
+  (let ((root (/ (round (* place 1000000)) 1000000)))
+    (and (zerop (algebra-sign-of-value (car chain) root))
+         (eql (if (plusp direction) 0 1)
+              (if (plusp direction)
+                  (algebra-chain-roots chain root nil)
+                  (algebra-chain-roots chain nil root)))
+         root)))
 
 (defun algebra-sign-between (e x low low-open high high-open)
   "The sign of the polynomial E in X between the bounds, where it has no root there."
@@ -243,10 +265,12 @@ c is known."
       '$unknown))
 
 (defun algebra-own-gaps (e)
-  "What the kernels of E bring with them: signs, and |sin x|, |cos x| <= 1."
+  "What the kernels of E bring with them: signs, |sin x|, |cos x| <= 1, and cosh x >= 1."
   (loop for kernel in (algebra-kernels-of (list e))
         unless (symbolp kernel)
           collect (cons kernel (algebra-part-sign kernel))
-          and when (and (consp kernel) (member (caar kernel) '(%sin %cos))
-                        (algebra-real-p (cadr kernel)))
-                append (list (cons (add 1 kernel) '$pz) (cons (sub 1 kernel) '$pz))))
+          and when (and (consp kernel) (algebra-real-p (cadr kernel)))
+                append (case (caar kernel)
+                         ((%sin %cos)
+                          (list (cons (add 1 kernel) '$pz) (cons (sub 1 kernel) '$pz)))
+                         (%cosh (list (cons (sub kernel 1) '$pz))))))
