@@ -72,10 +72,10 @@
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
 (core-rule "motion" *analysis-motions* "analysis/motion" "analysis_lagrange_motion"
   "LagrangeEquations" "coordinates" "solution" "special_cases")
-(core-rule "routh_motion" :any "analysis/motion_momenta" "analysis_routh_motion"
+(core-rule "routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
   "special_cases")
-(core-rule "hamilton_motion" :any "analysis/motion_momenta" "analysis_hamilton_motion"
+(core-rule "hamilton_motion" :any "analysis/first_approximation" "analysis_hamilton_motion"
   "HamiltonEquations" "coordinates" "solution" "special_cases")
 
 ;;; First approximation and criteria
@@ -100,7 +100,7 @@
 (loop for part in '("M" "S" "W")
       do (core-rule-field part *analysis-kinds* "FirstApproximation" part)
          (core-rule-given '("function" $hamilton) part *analysis-kinds*
-           "analysis/motion_momenta" "analysis_no_second_order"))
+           "analysis/first_approximation" "analysis_no_second_order"))
 
 (core-public "CharacteristicPolynomial"
   :forms '(("matrices" "A" "lambda") ("pencil" "M" "S" "W" "lambda"))
@@ -141,7 +141,7 @@
 
 (core-public "SecondVariation"
   :forms '(("function" "K" "variables" "solution" "&optional" "integrals")) :options '("manifold"))
-(core-rule "SecondVariation" '("function") "analysis/variation" "analysis_second_variation"
+(core-rule "SecondVariation" '("function") "analysis/routh_lyapunov" "analysis_second_variation"
   "K" "variables" "solution" (list "integrals" *analysis-none*) (list "manifold" *analysis-none*))
 
 (core-public "RouthLyapunov"
@@ -158,7 +158,7 @@
 
 (core-public "RootCount" :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
                          :options (cons "lambda" *analysis-linear-options*) :kinds *analysis-kinds*)
-(core-rule "RootCount" :any "analysis/root_count" "analysis_root_count" "polynomial"
+(core-rule "RootCount" :any "analysis/characteristic" "analysis_root_count" "polynomial"
   *analysis-lambda*)
 
 (core-public "RealNegativeRoots" :forms '(("polynomial" "polynomial" "u")))
@@ -195,4 +195,4 @@
 (loop for (name function) in '(("LinearIntegrals" "analysis_linear_integrals")
                                ("QuadraticIntegrals" "analysis_quadratic_integrals"))
       do (core-public name :forms '(("matrices" "A" "variables")))
-         (core-rule name :any "analysis/linear_integrals" function "A" "variables"))
+         (core-rule name :any "analysis/linear_system" function "A" "variables"))
