@@ -2,8 +2,9 @@
 ;;;
 ;;; The sign of a real constant, zero included.  Intervals prove that it is not zero.  An algebraic
 ;;; number (nested roots, sines and cosines of parts of %pi) is zero if it is smaller than it could
-;;; be otherwise (separation.lisp): one interval of that many digits decides.  What intervals do not
+;;; be otherwise (below): one interval of that many digits decides.  What intervals do not
 ;;; separate and no bound covers, or would take too many digits, is not decided.
+;;; It begins with that bound.
 
 (in-package :maxima)
 

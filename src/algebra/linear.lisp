@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/minors" "algebra/zero" "algebra/rank"
+  (core-require "algebra/size" "algebra/kernels" "algebra/minors" "algebra/zero"
                 "algebra/evaluate" "algebra/matrices" "algebra/normal" "algebra/quotient"
                 "algebra/relations" "algebra/scan"))
 

@@ -1,9 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; Matrices of expressions become arrays of polynomials: rows are freed of denominators, and of
+;;; Matrices of expressions as arrays of polynomials: rows are freed of denominators, and of
 ;;; monomials common to a row or a column, M = diag(r) . M' . diag(c). Then
 ;;; det M = prod(r)*prod(c)*det M', adj(M)_ij = prod(c without i)*prod(r without j)*adj(M')_ij:
 ;;; mass matrices of chains lose all their lengths this way before their minors are formed.
+;;; It begins with the signature of a symmetric form.
 
 (in-package :maxima)
 

@@ -4,9 +4,6 @@
 
 (in-package :maxima)
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size"))
-
 (defstruct algebra-language
   name comment        ; name of the language, and what begins a line of comment
   number              ; text of a rational number

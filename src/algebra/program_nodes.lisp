@@ -8,9 +8,6 @@
 
 (in-package :maxima)
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size"))
-
 (defstruct algebra-node operation left right index)
 
 (defstruct algebra-program

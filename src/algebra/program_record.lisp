@@ -3,6 +3,7 @@
 ;;;     [inputs = [..], assignments = [z1 = .., z2 = .., ..], outputs = [M = .., f = ..],
 ;;;      operations = n],
 ;;; each assignment one operation on inputs, constants and earlier names; and back again.
+;;; It begins with the value of a program at a point.
 
 (in-package :maxima)
 

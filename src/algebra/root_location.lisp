@@ -5,6 +5,7 @@
 ;;; left - right (Gantmacher, The Theory of Matrices, XV, 3; common factors cancel).  As
 ;;; p(iw) = i^n*(P - i*Q), the roots on the axis are the real roots of g = gcd(P, Q), counted by the
 ;;; index of g'/g, those of gcd(g, g') once more, and so on.
+;;; It begins with the chain of subresultants by which the index is counted.
 
 (in-package :maxima)
 

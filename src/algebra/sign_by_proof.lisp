@@ -5,6 +5,7 @@
 ;;; Handelman, Representing polynomials by positive linear functions on compact convex
 ;;; polyhedra, Pacific J. Math. 132, 1988). That 0 has such a form with a p_k > 0 proves that
 ;;; the g_j contradict each other.
+;;; It begins with that linear programming.
 
 (in-package :maxima)
 

@@ -3,6 +3,7 @@
 ;;; The size of expressions, a bound of their degree, and the guard that stands before every
 ;;; expansion: running out of heap kills the Lisp, so a result that is predicted too large is
 ;;; refused with its figure.
+;;; It begins with what all of the algebra uses.
 
 (in-package :maxima)
 

@@ -7,7 +7,7 @@
 ;;;   algebra_nonzero(e)          it cannot vanish where the facts hold (sign.lisp).
 ;;; algebra_zerop: true where the numerator vanishes modulo the relations of its kernels; false
 ;;; where a value at a point is not zero, modulo a prime where the kernels are independent, else by
-;;; intervals.  Polynomials in kernels: zero.lisp.
+;;; intervals.  It begins with polynomials in kernels.
 
 (in-package :maxima)
 

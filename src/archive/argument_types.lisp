@@ -7,8 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/names" "archive/simplify" "archive/speller"
-                "archive/types"))
+  (core-require "archive/keys" "archive/names" "archive/simplify" "archive/types"))
 
 (defun archive-arguments-taken (arguments)
   "ARGUMENTS as the session gave them: what `rat' and `taylor' made in general form, and keys that

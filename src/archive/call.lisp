@@ -6,8 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/argument_checks" "archive/groups" "archive/names" "archive/open"
-                "archive/results" "archive/types"))
+  (core-require "archive/groups" "archive/names" "archive/open" "archive/types"))
 
 (defstruct archive-call
   public archive kind

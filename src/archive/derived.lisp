@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; What a rule gave, with what was said meanwhile: checks, what is left out, warnings, the form to
 ;;; which the derivation came. Whoever takes a middle quantity repeats them. Those that the register
-;;; marks as kept (scene, network, actions) stay for the calls that follow, the last few of them,
+;;; marks as kept (circuit, network, scene) stay for the calls that follow, the last few of them,
 ;;; under a digest of what they depend on, the facts that hold and the version. Look first at
 ;;; archive-derive.
 

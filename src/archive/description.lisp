@@ -7,8 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/groups" "archive/keys" "archive/parser" "archive/speller"
-                "archive/types"))
+  (core-require "archive/groups" "archive/keys" "archive/parser" "archive/types"))
 
 ;;; Keys of one section
 

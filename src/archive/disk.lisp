@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/bytes" "archive/digest"))
+  (core-require "archive/bytes"))
 
 ;; Calls of the C library
 

@@ -5,9 +5,6 @@
 
 (in-package :maxima)
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/types"))
-
 (defparameter *archive-function-spellings*
   '(("tg" . "tan") ("tang" . "tan") ("ctg" . "cot") ("cotg" . "cot") ("cotan" . "cot")
     ("ctan" . "cot") ("cosec" . "csc") ("arcsin" . "asin") ("arccos" . "acos")

@@ -9,8 +9,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/description" "archive/digest" "archive/groups" "archive/keys"
-                "archive/names" "archive/open" "archive/parser" "archive/sections"
-                "archive/speller" "archive/store" "archive/tokens" "archive/types"))
+                "archive/names" "archive/parser" "archive/sections" "archive/speller"
+                "archive/store" "archive/tokens" "archive/types"))
 
 (defparameter *archive-result-width* 96)
 

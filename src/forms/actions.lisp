@@ -3,6 +3,7 @@
 ;;; derived from, and what is left of it by Routh's reduction. `rayleigh' is R with the force
 ;;; -dR/dq', `forces' a list of Q_i or [] for none, `constraints' equations f(q,t) = 0,
 ;;; `nonholonomic' equations linear in the velocities.
+;;; It begins with the values that names have by what is assumed.
 
 (in-package :maxima)
 

@@ -10,8 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/motions" "algebra/program_derivative" "linmodel/arithmetic"
-                "linmodel/twists" "algebra/program_nodes" "algebra/program_from_expressions"))
+  (core-require "linmodel/motions" "linmodel/arithmetic" "linmodel/twists" "algebra/program_nodes"
+                "algebra/program_from_expressions"))
 
 (defun linmodel-program-arithmetic ()
   (make-linmodel-arithmetic

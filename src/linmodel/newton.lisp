@@ -9,9 +9,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/kinetic" "linmodel/energy_value" "forms/fixed" "forms/agreement"
-                "forms/value" "linmodel/arithmetic" "linmodel/twists" "linmodel/scene_records"
-                "linmodel/frames" "algebra/size"))
+  (core-require "linmodel/energy_value" "forms/fixed" "forms/agreement" "forms/value"
+                "linmodel/arithmetic" "linmodel/twists" "linmodel/scene_records" "linmodel/frames"
+                "algebra/size"))
 
 (defun linmodel-attraction (a body beta place factors)
   "The force function of BODY, its tensor about O_k; FACTORS are nu/r, -nu/r^2 and nu/(2 r^3)."

@@ -6,6 +6,7 @@
 ;;; (x, y) as in kinetic.lisp, u_j = v_j + w_j x c with Theta about the centre of mass; for Theta
 ;;; about O_k u_j.a_C is v_j.a_C + (w_j x c).a. given_j are the forces that no constant field gives,
 ;;; dU/dq - dR/dq' + Q; a constant field enters as an acceleration of the fixed axes.
+;;; It begins with the displacements of bodies and the momenta that belong to them.
 
 (in-package :maxima)
 
