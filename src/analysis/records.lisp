@@ -17,6 +17,14 @@ parameters that the solution names, and `where' is put in after them. Coordinate
 `ignorable' do not count in a verdict."
   equations variables coordinates values where (ignorable '((mlist simp))))
 
+(core-record analysis-found
+  "What solving gives: solutions [x = .., ..], sentences on what is left, factors taken as not zero."
+  solutions left taken)
+
+(core-record analysis-sorted
+  "Stationary sets [x = .., mu = ..] by what they are for fixed multipliers, see stationary.mac."
+  points families manifolds)
+
 (core-record analysis-routh-function
   "Routh's function R = a*v^2/2 + b*v + R0 of one coordinate q, v = q': `square' is a, `linear' is
 b, `rest' is R0."
