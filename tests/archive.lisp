@@ -4,7 +4,7 @@
 
 (in-package :maxima)
 
-(core-require "archive/open" "archive/results")
+(core-require "archive/dispatch" "archive/open" "archive/results")
 
 (defun test-list (items) (cons '(mlist simp) items))
 

@@ -6,7 +6,7 @@
 
 (in-package :maxima)
 
-(core-require "archive/speller" "archive/sections")
+(core-require "archive/bytes" "archive/speller" "archive/sections")
 
 (defvar *fuzz-state* 1 "State of the generator of random numbers.")
 (defvar *fuzz-seconds* 5 "The time that one case may take.")
