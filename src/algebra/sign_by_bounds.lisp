@@ -46,7 +46,7 @@
 
 (defun algebra-range (x)
   "Four values: the largest known lower bound of X and whether it is left out, and the same above;
-nil where there is none."
+nil where there is none. Facts of degree 8 at most are asked, which takes milliseconds."
   (let ((low nil) (low-open nil) (high nil) (high-open nil))
     (flet ((above (bound open)
              (when (or (null low) (> bound low) (and (= bound low) open))
@@ -57,7 +57,7 @@ nil where there is none."
       (loop for (e . sign) in (algebra-gaps *algebra-knowledge*)
             for powers = (and (not ($constantp e)) (equal (algebra-names-of e) (list x))
                               (algebra-powers-in e x))
-            do (when (and (<= 2 (length powers) 20) (every #'algebra-rational-number powers))
+            do (when (and (<= 2 (length powers) 9) (every #'algebra-rational-number powers))
                  (loop for (direction bound open) in (algebra-fact-bounds
                                                       (algebra-numbers-of e x) sign)
                        do (if (plusp direction) (below bound open) (above bound open))))))
