@@ -106,6 +106,10 @@
   (unless (and ($matrixp m) (cdr m) (cdadr m))
     (core-error "~A must be a matrix, found ~A" what (algebra-short-text m))))
 
+(defun $algebra_dot (list-1 list-2)
+  "The scalar product of two lists, 0 for empty ones."
+  (addn (mapcar #'mul (cdr list-1) (cdr list-2)) nil))
+
 ;;; Expressions, quotients, polynomials.
 
 (defun algebra-scan-rows (m)
