@@ -107,6 +107,10 @@
   (unless (and ($matrixp m) (cdr m) (cdadr m))
     (core-error "~A must be a matrix, found ~A" what (algebra-short-text m))))
 
+(defun $algebra_dot (list-1 list-2)
+  "The scalar product of two lists, 0 for empty ones."
+  (addn (mapcar #'mul (cdr list-1) (cdr list-2)) nil))
+
 ;;; Expressions, quotients, polynomials.
 
 (defun algebra-scan-rows (m)
@@ -182,6 +186,31 @@
               collect (cons '(mlist simp)
                             (loop for j below (array-dimension entries 1)
                                   collect (aref entries i j))))))
+
+;;; Blocks: indices that entries join.
+
+(defun algebra-blocks (rows)
+  "Ascending lists of indices from 0: entries i,j and j,i of different lists are written 0."
+  (let ((entries (algebra-rectangle rows))
+        (waiting (loop for i below (length rows) collect i)))
+    (loop while waiting
+          collect (let ((joined (algebra-joined (list (car waiting)) entries)))
+                    (setq waiting (remove-if (lambda (i) (member i joined)) waiting))
+                    (sort joined #'<)))))
+
+(defun algebra-joined (indices entries)
+  (flet ((apart-p (i j) (and (eql 0 (aref entries i j)) (eql 0 (aref entries j i)))))
+    (let ((next (loop for j below (array-dimension entries 0)
+                      unless (or (member j indices)
+                                 (every (lambda (i) (apart-p i j)) indices))
+                        collect j)))
+      (if next (algebra-joined (append next indices) entries) indices))))
+
+(defun $algebra_blocks (matrix)
+  "Lists of indices from 1 that no entry of a square MATRIX joins."
+  (cons '(mlist simp)
+        (loop for block in (algebra-blocks (mapcar #'cdr (cdr matrix)))
+              collect (cons '(mlist simp) (mapcar #'1+ block)))))
 
 ;;; Monomials of rows and columns.
 

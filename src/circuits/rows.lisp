@@ -5,6 +5,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/matrices"))
+
 (defun $circuits_places (row)
   "The places of ROW."
   (cons '(mlist simp) (mapcar #'second (cdr row))))
@@ -40,10 +43,7 @@
   "The place of ITEM, a number or a name, in the list ITEMS."
   (1+ (position item (cdr items) :test #'equal)))
 
-;; Full rows; a matrix without rows or columns is matrix(), an empty sum is 0
-
-(defun $circuits_dot (list-1 list-2)
-  (addn (mapcar #'mul (cdr list-1) (cdr list-2)) nil))
+;; Full rows; a matrix without rows or columns is matrix()
 
 (defun $circuits_products (rows others)
   "A row for each of ROWS: its products with each of OTHERS."
@@ -51,7 +51,7 @@
         (loop for row in (cdr rows)
               collect (cons '(mlist simp)
                             (loop for other in (cdr others)
-                                  collect ($circuits_dot row other))))))
+                                  collect ($algebra_dot row other))))))
 
 (defun $circuits_matrix (rows)
   (cons '($matrix simp) (if (cdr (cadr rows)) (cdr rows))))

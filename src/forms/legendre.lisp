@@ -18,7 +18,7 @@
 (defun $forms_inverse_form (a b form)
   "b.A^-1.b/2 for a symmetric regular A."
   (let ((rows (mapcar #'cdr (cdr a))) (b (cdr b)))
-    (addn (loop for block in (forms-blocks rows)
+    (addn (loop for block in (algebra-blocks rows)
                 collect (forms-block-form (forms-chosen-rows block rows)
                                           (forms-chosen block b)
                                           form))
@@ -43,23 +43,7 @@
 (defun forms-much-longer-p (size rows b)
   (> size (max 20000 (* 4 (reduce #'min (forms-nested-sizes rows b))))))
 
-;;; Blocks: indices that products join.
-
-(defun forms-blocks (rows)
-  "Lists of indices; the element i,j of ROWS is 0 for i and j of different lists."
-  (let ((waiting (loop for i below (length rows) collect i)))
-    (loop while waiting
-          collect (let ((block (forms-joined (list (car waiting)) rows)))
-                    (setq waiting (set-difference waiting block))
-                    (setq waiting (sort waiting #'<))
-                    (sort block #'<)))))
-
-(defun forms-joined (block rows)
-  (let ((next (loop for j below (length rows)
-                    when (and (not (member j block))
-                              (some (lambda (i) (not (eql 0 (nth j (nth i rows))))) block))
-                      collect j)))
-    (if next (forms-joined (append next block) rows) (copy-list block))))
+;;; Rows and elements of a block.
 
 (defun forms-chosen (indices items)
   (mapcar (lambda (i) (nth i items)) indices))
