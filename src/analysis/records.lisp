@@ -18,7 +18,8 @@ parameters that the solution names, and `where' is put in after them. Coordinate
   equations variables coordinates values where (ignorable '((mlist simp))))
 
 (core-record analysis-found
-  "What solving gives: solutions [x = .., ..], sentences on what is left, factors taken as not zero."
+  "What solving gives: solutions [x = .., ..], sentences on what is left, factors taken as
+not zero."
   solutions left taken)
 
 (core-record analysis-sorted

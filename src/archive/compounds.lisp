@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Expressions put together from their parts: what kind of thing each is, and the error where
 ;;; another kind was expected; arithmetic with lists and matrices, element by element; functions
-;;; whose arguments have a form of their own: diff, integrate, at, matrix, diag, notequal, piecewise.
+;;; whose arguments have a form of their own: diff, integrate, at, matrix, diag, notequal,
+;;; piecewise.
 ;;; Look first at archive-form-kind.
 
 (in-package :maxima)

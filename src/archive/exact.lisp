@@ -2,8 +2,8 @@
 ;;; What is typed in a call made exact. A decimal of at most 15 digits is the fraction that was
 ;;; typed, 0.3 is 3/10, which is said once, and so is 1/0.3, which Maxima divides. A number that
 ;;; needs more digits comes from a rounding before the call, as 0.1+0.2-0.3 does, and is refused.
-;;; Start values, spans of time and the like may be any numbers. Sums and products over whole numbers
-;;; are written out. Look first at archive-exact-decimals and archive-sums-written-out.
+;;; Start values, spans of time and the like may be any numbers. Sums and products over whole
+;;; numbers are written out. Look first at archive-exact-decimals and archive-sums-written-out.
 
 (in-package :maxima)
 

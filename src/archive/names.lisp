@@ -194,7 +194,8 @@ open."
   '($integer $noninteger $even $odd $rational $irrational $real $imaginary $complex $analytic
     $increasing $decreasing $oddfun $evenfun $posfun $constant $commutative $lassociative
     $rassociative $symmetric $antisymmetric $integervalued)
-  "Names that Maxima takes for something that has the property of this name: (-1)^(2*integer) is 1.")
+  "Names that Maxima takes for something that has the property of this name:
+(-1)^(2*integer) is 1.")
 
 (defun archive-refuse-property-words (names)
   (let ((word (find-if (lambda (name) (member name *archive-property-words*)) names)))

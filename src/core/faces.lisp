@@ -26,7 +26,7 @@ capture it.)"
             (funcall *core-dispatcher* public arguments)))
     symbol))
 
-;;; Help: `? Lagrangian' answers from doc/dynarch.info by the index beside it, in the way of Maxima's
+;;; Help: `? Lagrangian' answers from doc/dynarch.info by the index beside it, as for Maxima's
 ;;; share packages. The index is read when the first package is loaded, the text when somebody asks.
 
 (defvar *core-help-installed* nil "Whether Maxima knows the index.")

@@ -49,5 +49,6 @@ Returns their names."
   (apply #'core-require parts)
   '$done)
 
-(core-require "core/messages" "core/sizes" "core/records" "core/register" "core/guard" "core/watch" "core/faces")
+(core-require "core/messages" "core/sizes" "core/records" "core/register" "core/guard" "core/watch"
+              "core/faces")
 #+sbcl (core-require "core/alarm")

@@ -88,8 +88,8 @@ name), where the archive's result NAME was edited by hand."
   gives)     ; the quantities that it has: names, or (name other)
 
 (defun core-kind (name about &rest parts)
-  "States a kind of archive; PARTS are keywords and values, the other fields of the record. Rows: see
-src/archive/keys.lisp. What it gives is a name, for which a rule is stated, or (name other), the
+  "States a kind of archive; PARTS are keywords and values, the other fields of the record. Rows:
+see src/archive/keys.lisp. What it gives is a name, for which a rule is stated, or (name other), the
 quantity or key OTHER under that name."
   (let ((kind (apply #'make-core-kind :name name :about about parts)))
     (loop for item in (core-kind-gives kind)

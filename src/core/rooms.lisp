@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The rooms of the house in their order, and what each may use. A room uses also what those use,
 ;;; and nothing else: the arrows run one way. Keys of compiled files, the registers and the rules
-;;; that tools/house-rules prints follow this table; a part of a room may be compiled from constants,
-;;; structures and macros of any room that it may use.
+;;; that tools/house-rules prints follow this table; a part of a room may be compiled from
+;;; constants, structures and macros of any room that it may use.
 
 (in-package :maxima)
 
