@@ -2,7 +2,8 @@
 ;;;
 ;;; The rank of a matrix of expressions, and its null space.  At a point modulo a large prime
 ;;; (rational points of the circle for each angle) the rank r is a lower bound, with r rows and
-;;; columns whose minor is not zero.  The rank is r when every minor of r + 1 rows that borders that one vanishes exactly.
+;;; columns whose minor is not zero.  The rank is r when every minor of r + 1 rows that borders
+;;; that one vanishes exactly.
 ;;; It begins with the null space.
 
 (in-package :maxima)
