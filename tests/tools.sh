@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-2.0-or-later
 # tools/maxima hands on arguments, folder and exit status, and finds the packages from folders with odd names;
-# tools/setup, given a distribution of straw, builds once, never leaves half a Maxima, and says what is missing.
+# tools/setup, given a distribution of straw, builds once, never leaves half a Maxima, and says what is missing; tools/dist makes a release.
 
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
 tools=$here/../tools
@@ -147,5 +147,15 @@ if [ "$(id -u)" != 0 ]; then
     "dynarch: cannot write in //dynarch (XDG_CACHE_HOME chooses another place)"
 fi
 XDG_CACHE_HOME=$cached_home
+
+# --- tools/dist: the release of the last commit, where there is a history ---
+
+if git -C "$tools" rev-parse --verify --quiet HEAD >/dev/null 2>&1; then
+  release=$("$tools/dist" "$work")
+  version=$(sed -n 's/^(defparameter \*core-version\* "\([0-9.]*\)".*/\1/p' "$tools/../src/core/faces.lisp")
+  check "the name of the release" "$release" "$work/dynarch-$version.tar.gz"
+  check "it holds the packages" "$(tar tzf "$release" | grep -c "^dynarch-$version/[a-z]*\.mac$")" 3
+  check "and nothing of the maintainers' machines" "$(tar tzf "$release" | grep -c '/\.')" 0
+fi
 
 summary
