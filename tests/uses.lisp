@@ -268,18 +268,3 @@ the maker, the copier and the test of others."
                                                                         (list piece)))
                                                       (uses-piece-defined piece)))
                  when dead collect (uses-list part (apply #'uses-list (sort dead #'string<)))))))
-
-(defun $uses_unneeded ()
-  "[[part, other], ..]: a part declares another and uses no name of it. (A core-require of what a
-macro or a value at load time needs is one too: name it in the test.)"
-  (let ((parts (mapcar #'uses-read (uses-parts))) (used (make-hash-table :test #'equal)))
-    (loop for (part other) in (uses-arrows)
-          do (push other (gethash (uses-part-name part) used)))
-    (apply #'uses-list
-           (loop for part in parts
-                 append (loop for other in (remove-duplicates (uses-part-declared part) :test #'string=)
-                              when (and (find other parts :key #'uses-part-name :test #'string=)
-                                        (not (string= (uses-room other) "core"))
-                                        (not (search "register" (uses-part-name part)))
-                                        (not (member other (gethash (uses-part-name part) used) :test #'string=)))
-                                collect (uses-list (uses-part-name part) other))))))
