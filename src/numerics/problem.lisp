@@ -1,0 +1,100 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What every method of integration takes and gives. A problem is M x' = X(t, x) with what a method
+;;; may ask of it; a method is a function of a problem, controls, a start and an observer:
+;;;     (numerics-dopri problem controls moment state observer) -> numerics-outcome
+;;; It steps until the end of the controls, and calls the observer after each accepted step. The
+;;; observer reads the step, may change the state (a projection), and says nil to go on, :changed
+;;; where it has changed the state, or :stop.
+
+(in-package :maxima)
+
+;;; Vectors are simple arrays of double-float numbers, changed in place: a number that is passed or
+;;; returned would be boxed. A moment is such a vector of two numbers, the time and its low part, so
+;;; that a sum of many steps keeps what a double-float number cannot hold.
+
+(deftype numerics-vector () '(simple-array double-float (*)))
+(deftype numerics-index () '(unsigned-byte 32))
+(deftype numerics-indices () '(simple-array (unsigned-byte 32) (*)))
+
+(declaim (inline numerics-zeros))
+(defun numerics-zeros (n) (make-array n :element-type 'double-float :initial-element 0d0))
+
+(defun numerics-moment (time)
+  (let ((moment (numerics-zeros 2)))
+    (setf (aref moment 0) time)
+    moment))
+
+(defun numerics-advance (moment step)
+  "MOMENT later by STEP, in place; the sum of its parts loses nothing that two numbers can hold."
+  (declare (type numerics-vector moment) (double-float step) (optimize speed))
+  (let* ((high (aref moment 0)) (low (+ step (aref moment 1)))
+         (sum (+ high low)) (kept (- sum high)))
+    (declare (double-float high low sum kept))
+    (setf (aref moment 0) sum
+          (aref moment 1) (+ (- high (- sum kept)) (- low kept)))
+    moment))
+
+(declaim (inline numerics-finite-p))
+(defun numerics-finite-p (x)
+  (declare (double-float x))
+  (= (- x x) 0d0))
+
+;;; Sparse matrices by columns: the entries of column j are values[starts[j]] .. before
+;;; values[starts[j+1]], in the rows rows[..], which increase.
+
+(defstruct numerics-pattern
+  (size 0 :type fixnum)
+  (starts (make-array 1 :element-type '(unsigned-byte 32) :initial-element 0)
+   :type (simple-array (unsigned-byte 32) (*)))
+  (rows (make-array 0 :element-type '(unsigned-byte 32)) :type (simple-array (unsigned-byte 32) (*))))
+
+(defstruct numerics-matrix pattern (values (numerics-zeros 0) :type (simple-array double-float (*))))
+
+;;; A problem.
+
+(defstruct numerics-problem
+  (size 0 :type fixnum)
+  rates      ; (time x out): X(t, x) into the vector OUT; TIME is a moment, X a vector. What has no
+             ; finite value comes out as infinity or NaN, never as an error
+  jacobian   ; nil, or (time x values): the entries dX_i/dx_j of the pattern into VALUES
+  pattern    ; numerics-pattern of the jacobian
+  time-slope ; nil, or (time x out): dX/dt
+  mass       ; nil for the identity, else a constant numerics-matrix
+  names      ; Maxima expressions of the states, for messages
+  angles     ; list of the places of states that are angles: their scale is 1
+  split      ; nil, or the number k where x = (q, v), q' = v, and v' depends on q, v and t (k = n/2)
+  program)   ; what the rates were made from, for methods in other arithmetics: numerics-program
+
+;;; Controls. The error of a step is max |e_i|/(|x_i| + s_i) against the relative tolerance.
+
+(defstruct numerics-controls
+  (end 0d0 :type double-float)
+  (relative 1d-8 :type double-float)
+  (scales (numerics-zeros 0) :type (simple-array double-float (*))) ; s_i = absolute/relative, angles 1
+  (first-step nil)     ; nil: chosen by the method
+  (largest-step nil)
+  (most-steps nil)     ; nil: no limit
+  (looks-for nil)      ; :stiffness (explicit methods), :end-of-stiffness (implicit ones): see auto
+  (counts (make-numerics-counts)))
+
+(defstruct numerics-counts
+  (rates 0 :type fixnum) (jacobians 0 :type fixnum) (factorisations 0 :type fixnum)
+  (steps 0 :type fixnum) (rejected 0 :type fixnum) (not-finite 0 :type fixnum))
+
+;;; A step that was accepted, as the observer sees it; it holds during the call only.
+
+(defstruct numerics-step
+  (from (numerics-zeros 2) :type (simple-array double-float (*)))   ; moments
+  (to (numerics-zeros 2) :type (simple-array double-float (*)))
+  (before (numerics-zeros 0) :type (simple-array double-float (*))) ; states
+  (after (numerics-zeros 0) :type (simple-array double-float (*)))
+  interpolate) ; (share out): the state at from + share*(to - from), 0 <= share <= 1, into OUT
+
+;;; How a method ended.
+
+(defstruct numerics-outcome
+  status   ; :end, :stopped, :stiff, :not-stiff (of those that look for it), or what went wrong:
+           ; :not-finite, :smallest-step, :no-convergence, :most-steps, :singular
+  moment state
+  (step 0d0 :type double-float) ; the next step that the method would take
+  about)   ; a sentence for a person, or nil
