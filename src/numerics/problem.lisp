@@ -65,6 +65,12 @@
   split      ; nil, or the number k where x = (q, v), q' = v, and v' depends on q, v and t (k = n/2)
   program)   ; what the rates were made from, for methods in other arithmetics: numerics-program
 
+;;; What a run has cost so far.
+
+(defstruct numerics-counts
+  (rates 0 :type fixnum) (jacobians 0 :type fixnum) (factorisations 0 :type fixnum)
+  (steps 0 :type fixnum) (rejected 0 :type fixnum) (not-finite 0 :type fixnum))
+
 ;;; Controls. The error of a step is max |e_i|/(|x_i| + s_i) against the relative tolerance.
 
 (defstruct numerics-controls
@@ -76,10 +82,6 @@
   (most-steps nil)     ; nil: no limit
   (looks-for nil)      ; :stiffness (explicit methods), :end-of-stiffness (implicit ones): see auto
   (counts (make-numerics-counts)))
-
-(defstruct numerics-counts
-  (rates 0 :type fixnum) (jacobians 0 :type fixnum) (factorisations 0 :type fixnum)
-  (steps 0 :type fixnum) (rejected 0 :type fixnum) (not-finite 0 :type fixnum))
 
 ;;; A step that was accepted, as the observer sees it; it holds during the call only.
 
