@@ -8,7 +8,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "forms/agreement"
-                "forms/program_judge" "forms/rates" "forms/value"))
+                "forms/program_judge" "forms/rates" "forms/value" "numerics/mass_rank"
+                "numerics/rate_mass"))
 
 ;;; Values.
 
@@ -94,6 +95,19 @@
 
 ;;; The record.
 
+(defun numerics-mass-outputs (rates)
+  (let ((rows (forms-rates-mass rates)))
+    (when rows
+      (list (cons '$mass
+                  (cons :matrix (numerics-full-rows rows)))))))
+
+(defun numerics-full-rows (rows)
+  (loop with n = (length rows)
+        for row in rows
+        collect (let ((full (make-array n :initial-element 0)))
+                  (loop for (j . element) in row do (setf (aref full j) element))
+                  (coerce full 'list))))
+
 (defun numerics-guard-outputs (rates)
   (let ((guards (forms-rates-guards rates)))
     (when guards
@@ -105,7 +119,8 @@
   "The record of RATES, whose names are those outside; MORE are further fields."
   (let ((record (algebra-program-record
                  (cons '$t (forms-rates-states rates))
-                 (append (forms-rates-outputs rates) (numerics-guard-outputs rates)))))
+                 (append (forms-rates-outputs rates) (numerics-mass-outputs rates)
+                         (numerics-guard-outputs rates)))))
     (flet ((field (name list) (algebra-field name (cons '(mlist simp) list))))
       (append record
               (list (field '$states (forms-rates-states rates))
@@ -118,20 +133,27 @@
   (count-if-not #'algebra-input-p
                 (algebra-live-nodes (algebra-all-outputs (forms-rates-outputs rates)))))
 
+;;; Rates as a run takes them.
+
+(defun numerics-run-rates (rates pairs solved)
+  "RATES in the current program with the values of PAIRS, ((name . element) ..), put in, divided by
+M as far as it goes."
+  (numerics-refuse-state-values pairs (forms-rates-states rates))
+  (let ((new (numerics-exchanged-rates rates pairs)))
+    (numerics-check-exchange rates new pairs)
+    (numerics-checked-mass (numerics-settled-rates new solved) rates pairs)))
+
 ;;; For Maxima.
 
-(defun $numerics_rate_program (rates values)
+(defun $numerics_rate_program (rates values solved)
   "The record of RATES with VALUES, equations name = number."
   (with-algebra-program
-    (let ((pairs (numerics-value-pairs values)))
-      (numerics-refuse-state-values pairs (forms-rates-states rates))
-      (let ((new (numerics-exchanged-rates rates pairs)))
-        (numerics-check-exchange rates new pairs)
-        (numerics-program-record
-         new
-         (list (algebra-field '$operations_before (numerics-operations rates))
-               (algebra-field '$operations_after (numerics-operations new))
-               (algebra-field '$zero
-                              (cons '(mlist simp)
-                                    (loop for (name . element) in pairs
-                                          when (eql element 0) collect name)))))))))
+    (let* ((pairs (numerics-value-pairs values)) (new (numerics-run-rates rates pairs solved)))
+      (numerics-program-record
+       new
+       (list (algebra-field '$operations_before (numerics-operations rates))
+             (algebra-field '$operations_after (numerics-operations new))
+             (algebra-field '$zero
+                            (cons '(mlist simp)
+                                  (loop for (name . element) in pairs
+                                        when (eql element 0) collect name))))))))

@@ -8,7 +8,7 @@
 
 (core-public "RateProgram"
   :forms '(("lagrangian" "Lagrangian" "coordinates") ("equations" "equations"))
-  :options '("values" "rayleigh" "forces" "constraints" "nonholonomic" "laws")
+  :options '("values" "rayleigh" "forces" "constraints" "nonholonomic" "laws" "solved")
   :kinds (core-kind-names) :numerical t)
 (core-rule "RateProgram" :any "numerics/rate_program" "numerics_rate_program" "rates"
-  *numerics-values*)
+  *numerics-values* '("solved" nil))
