@@ -26,44 +26,30 @@
                   (core-words (list value))))
     element))
 
-(defun numerics-refuse-state-values (pairs states)
-  (loop for (name) in pairs
-        do (when (or (eq name '$t) (member name states :test #'alike1))
+(defun numerics-parameter-pairs (pairs rates)
+  "PAIRS without those of momenta that are states here; other states have no fixed value."
+  (loop for pair in pairs
+        for name = (car pair)
+        do (when (and (or (eq name '$t) (member name (forms-rates-states rates) :test #'alike1))
+                      (not (member name (forms-rates-momenta rates))))
              (core-error "~a moves and has no fixed value; that at the start belongs into start"
-                         (core-words (list name))))))
+                         (core-words (list name))))
+        unless (member name (forms-rates-momenta rates)) collect pair))
 
 ;;; Exchange. What vanishes below a line is told with the values that make it vanish.
 
 (defun numerics-exchanged-rates (rates values)
   "RATES in the current program, with their names outside and VALUES, ((name . element) ..)."
-  (let* ((copy (copy-forms-rates rates))
-         (exchange (algebra-exchange-by (append (numerics-outside-pairs rates) values)))
-         (found (algebra-exchanged
-                 (forms-rates-elements rates) exchange
-                 (lambda (denominator)
-                   (numerics-fault-division denominator rates values)))))
-    (flet ((next (element) (declare (ignore element)) (pop found)))
-      (setf (forms-rates-program copy) *algebra-program*
-            (forms-rates-pairs copy) '()
-            (forms-rates-outputs copy) (numerics-mapped-outputs #'next (forms-rates-outputs rates))
-            (forms-rates-mass copy) (loop for row in (forms-rates-mass rates)
-                                          collect (loop for (j . element) in row
-                                                        collect (cons j (next element))))
-            (forms-rates-guards copy) (loop for (name pivot . whole) in (forms-rates-guards rates)
-                                            collect (list* name (next pivot) (next whole)))))
-    copy))
+  (let ((new (forms-exchanged-rates
+              rates
+              (algebra-exchange-by (append (numerics-outside-pairs rates) values))
+              (lambda (denominator) (numerics-fault-division denominator rates values)))))
+    (setf (forms-rates-pairs new) '())
+    new))
 
 (defun numerics-outside-pairs (rates)
   (loop for (inside . outside) in (forms-rates-pairs rates)
         collect (cons inside (algebra-program-input outside))))
-
-(defun numerics-mapped-outputs (function outputs)
-  (loop for (name . value) in outputs
-        collect (cons name
-                      (cond ((or (numberp value) (algebra-node-p value)) (funcall function value))
-                            ((eq (car value) :list) (cons :list (mapcar function (cdr value))))
-                            (t (cons :matrix (loop for row in (cdr value)
-                                                   collect (mapcar function row))))))))
 
 (defun numerics-fault-division (denominator rates values)
   (let ((guilty (algebra-vanishing-values denominator values (lambda (element) (eql element 0))))
@@ -126,6 +112,7 @@
               (list (field '$states (forms-rates-states rates))
                     (field '$angles (forms-rates-angles rates))
                     (algebra-field '$split (or (forms-rates-split rates) 0))
+                    (field '$cyclic (forms-rates-cyclic rates))
                     (field '$guarded (mapcar #'first (forms-rates-guards rates))))
               more))))
 
@@ -138,7 +125,6 @@
 (defun numerics-run-rates (rates pairs solved)
   "RATES in the current program with the values of PAIRS, ((name . element) ..), put in, divided by
 M as far as it goes."
-  (numerics-refuse-state-values pairs (forms-rates-states rates))
   (let ((new (numerics-exchanged-rates rates pairs)))
     (numerics-check-exchange rates new pairs)
     (numerics-checked-mass (numerics-settled-rates new solved) rates pairs)))
@@ -148,7 +134,8 @@ M as far as it goes."
 (defun $numerics_rate_program (rates values solved)
   "The record of RATES with VALUES, equations name = number."
   (with-algebra-program
-    (let* ((pairs (numerics-value-pairs values)) (new (numerics-run-rates rates pairs solved)))
+    (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+           (new (numerics-run-rates rates pairs solved)))
       (numerics-program-record
        new
        (list (algebra-field '$operations_before (numerics-operations rates))
