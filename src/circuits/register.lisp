@@ -44,7 +44,7 @@
 
 (core-rule "rates" '("circuit") "circuits/rates_of_circuits" "circuits_circuit_rates" "circuit")
 (core-rule-given "potential" "rates" '("circuit") "forms/rates_of_systems" "forms_equation_rates"
-  "StateEquations" '("laws" ((mlist simp))))
+  "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
 
 ;;; Linear circuits have Lagrange's function, and with it every form of equations: in loop charges
 

@@ -40,23 +40,39 @@
 
 (defun forms-hamilton-rates (dynamics names constant)
   "NAMES are those of the momenta of all coordinates, of which those of CONSTANT are no states."
+  (let* ((velocities (forms-velocities-of-momenta dynamics names))
+         (pushes (forms-put (forms-free-pushes dynamics)
+                            (mapcar #'cons (forms-task-v (forms-dynamics-task dynamics))
+                                    velocities)))
+         (motion (forms-canonical-motion-of dynamics names velocities pushes)))
+    (forms-check-hamilton dynamics names motion)
+    (forms-canonical-rates dynamics names motion constant)))
+
+(defun forms-canonical-motion-of (dynamics names velocities pushes)
+  "The motion with the constraints of DYNAMICS, VELOCITIES put in."
   (let* ((task (forms-dynamics-task dynamics))
-         (velocities (forms-velocities-of-momenta dynamics names))
-         (pairs (mapcar #'cons (forms-task-v task) velocities))
-         (forces (forms-put (forms-free-pushes dynamics) pairs))
-         (bonds (forms-put-in-bonds (forms-dynamics-bonds dynamics) pairs))
-         (multipliers (forms-canonical-multipliers task names velocities forces bonds)))
+         (bonds (forms-put-in-bonds (forms-dynamics-bonds dynamics)
+                                    (mapcar #'cons (forms-task-v task) velocities)))
+         (multipliers (forms-canonical-multipliers task names velocities pushes bonds))
+         (forces pushes))
     (loop for bond in bonds
           for multiplier in multipliers
           do (setq forces (forms-program-moved forces multiplier (forms-bond-row bond))))
-    (forms-check-hamilton dynamics names velocities forces bonds multipliers)
+    (make-forms-canonical-motion :velocities velocities :forces forces :bonds bonds
+                                 :multipliers multipliers)))
+
+(defun forms-canonical-rates (dynamics names motion constant)
+  (let ((task (forms-dynamics-task dynamics)))
     (flet ((kept (items) (forms-kept-items items task constant)))
-      (let ((elements (append (kept velocities) (kept forces))))
+      (let ((elements (append (kept (forms-canonical-motion-velocities motion))
+                              (kept (forms-canonical-motion-forces motion)))))
         (make-forms-rates
          :program *algebra-program* :pairs '()
          :states (append (kept (forms-task-q task)) (kept names)) :momenta (kept names)
          :outputs (cons (cons '$rates (cons :list elements))
-                        (forms-momentum-bonds dynamics bonds multipliers constant))
+                        (forms-momentum-bonds dynamics (forms-canonical-motion-bonds motion)
+                                              (forms-canonical-motion-multipliers motion)
+                                              constant))
          :guards (funcall (forms-dynamics-guards dynamics))
          :angles (forms-angles (kept (forms-task-q task)) elements))))))
 
@@ -83,21 +99,20 @@
   "lambda from the rates of g_j(q, p, t), which vanish: with G = dg/dp, G A^T lambda = -g' at the
 FORCES alone."
   (when bonds
-    (let* ((rates (acons (algebra-program-input '$t) 1
-                         (append (mapcar (lambda (x v) (cons (algebra-program-input x) v))
-                                         (forms-task-q task) velocities)
-                                 (mapcar (lambda (p f) (cons (algebra-program-input p) f))
-                                         names forces))))
-           (values (mapcar #'forms-bond-rate bonds))
-           (slopes (loop for g in values
-                         collect (algebra-program-gradient
-                                  g (mapcar #'algebra-program-input names)))))
+    (let ((rates (acons (algebra-program-input '$t) 1
+                        (forms-input-rates (append (forms-task-q task) names)
+                                           (append velocities forces))))
+          (values (mapcar #'forms-bond-rate bonds)))
       (forms-program-solution
-       (loop for row in slopes
+       (loop for g in values
+             for row = (algebra-program-gradient g (mapcar #'algebra-program-input names))
              collect (loop for bond in bonds
                            collect (forms-program-product row (forms-bond-row bond))))
        (mapcar #'algebra-program-negate (algebra-program-rates values rates))
        "the constraints depend on each other: their multipliers do not follow from the equations"))))
+
+(defun forms-input-rates (names elements)
+  (mapcar (lambda (name element) (cons (algebra-program-input name) element)) names elements))
 
 (defun forms-momentum-bonds (dynamics bonds multipliers constant)
   "The outputs of the BONDS, whose elements have other velocities put in."
@@ -113,6 +128,22 @@ FORCES alone."
                               (cons :matrix (loop for row in (cdr value)
                                                   collect (forms-kept-items row task constant)))
                               value))))))
+
+;;; Of a function H of coordinates and momenta: q' = dH/dp, p' = -dH/dq + Q.
+
+(defun forms-rates-of-hamiltonian (function forces names task)
+  (let* ((velocities (algebra-program-gradient
+                      function (mapcar #'algebra-program-input names)))
+         (slopes (algebra-program-gradient
+                  function (mapcar #'algebra-program-input (forms-task-q task))))
+         (dynamics (make-forms-dynamics
+                    :task task :bonds (forms-task-bonds task) :guards (constantly '())
+                    :solve (lambda (pushes)
+                             (algebra-program-rates velocities (forms-input-rates names pushes)))))
+         (motion (forms-canonical-motion-of
+                  dynamics names velocities
+                  (mapcar #'algebra-program-subtract forces slopes))))
+    (values (forms-canonical-rates dynamics names motion '()) motion)))
 
 ;;; Routh's form.
 

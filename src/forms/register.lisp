@@ -157,7 +157,11 @@
 (apply #'core-rule-given '("function" $hamilton) "rates" :any "forms/rates_of_systems"
        "forms_hamilton_rates" (append *forms-rates-inputs* '(("momenta" ((mlist simp))))))
 (core-rule "rates" '("equations" "poisson") "forms/rates_of_systems" "forms_equation_rates"
-  "state_equations" '("laws" ((mlist simp))))
+  "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
+(core-rule-given "hamiltonian" "rates" '("lagrangian") "forms/rates_of_systems"
+  "forms_hamiltonian_rates"
+  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) "canonical_actions"
+  '("laws" ((mlist simp))))
 
 ;;; Poisson
 

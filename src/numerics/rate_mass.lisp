@@ -69,6 +69,7 @@
 
 (defun numerics-solve-group (rates group rows right constant)
   (let* ((names (mapcar (lambda (i) (nth i (forms-rates-states rates))) group))
+         (rows (numerics-symmetric-rows rows names))
          (steps (forms-sparse-factors
                  rows (lambda (place)
                         (core-error "the matrix of ~{~a~^, ~} is singular: what moves ~a does not ~
@@ -81,6 +82,16 @@
     (unless constant
       (setf (forms-rates-guards rates)
             (append (forms-rates-guards rates) (numerics-group-guards names rows steps))))))
+
+(defun numerics-symmetric-rows (rows names)
+  "ROWS, or an error where they are not symmetric."
+  (loop for row in rows
+        for i from 0
+        do (loop for (j . element) in row
+                 unless (eql element (cdr (assoc i (nth j rows))))
+                   do (core-error "the matrix of ~{~a~^, ~} is not symmetric; leave solved = true out"
+                                  (mapcar (lambda (x) (core-words (list x))) names))))
+  rows)
 
 (defun numerics-group-guards (names rows steps)
   (loop for step in steps
