@@ -145,6 +145,24 @@
 (core-rule "ExportProgram" :any "forms/equation_program" "forms_export_program" "program" "file"
   '("language" $c) '("replace" nil))
 
+;;; Rates of a run
+
+(defparameter *forms-rates-inputs* '("Lagrangian" "coordinates" "actions" ("laws" ((mlist simp)))))
+
+(apply #'core-rule "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
+       *forms-rates-inputs*)
+(apply #'core-rule-given '("function" $routh) "rates" :any "forms/rates_of_systems"
+       "forms_routh_rates"
+       (append *forms-rates-inputs* '(("cyclic" $auto) ("momenta" ((mlist simp))))))
+(apply #'core-rule-given '("function" $hamilton) "rates" :any "forms/rates_of_systems"
+       "forms_hamilton_rates" (append *forms-rates-inputs* '(("momenta" ((mlist simp))))))
+(core-rule "rates" '("equations" "poisson") "forms/rates_of_systems" "forms_equation_rates"
+  "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
+(core-rule-given "hamiltonian" "rates" '("lagrangian") "forms/rates_of_systems"
+  "forms_hamiltonian_rates"
+  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) "canonical_actions"
+  '("laws" ((mlist simp))))
+
 ;;; Poisson
 
 (core-rule "poisson_equations" '("poisson") "forms/poisson" "forms_poisson_equations"
