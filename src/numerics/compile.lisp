@@ -138,7 +138,7 @@ the second stage needs, those of its COPIES too."
           (t `(numerics-element w ,(numerics-slot code element))))))
 
 (defun numerics-constant-text (code value)
-  (if (numerics-finite-p value)
+  (if (numerics-with-masked-traps (numerics-finite-p value))
       value
       `(numerics-element w ,(numerics-constant-slot code value))))
 

@@ -13,9 +13,6 @@
 
 ;;; Runs. In a turn the cosine comes with the sine, two places further on for the next one.
 
-(defun numerics-layout-slot (layout node)
-  (gethash (algebra-node-index node) (numerics-layout-slots layout)))
-
 (defun numerics-unit (plan node)
   "The node that NODE is computed with."
   (let ((turn (numerics-turn plan node)))

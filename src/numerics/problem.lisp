@@ -38,7 +38,7 @@
 (declaim (inline numerics-finite-p))
 (defun numerics-finite-p (x)
   (declare (double-float x))
-  (= (- x x) 0d0))
+  (<= (abs x) most-positive-double-float))
 
 ;;; Sparse matrices by columns: the entries of column j are values[starts[j]] .. before
 ;;; values[starts[j+1]], in the rows rows[..], which increase.
