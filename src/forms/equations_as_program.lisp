@@ -94,7 +94,7 @@
 ;;; Constraints f_j(q,t) = 0 or g_j = sum a_ji q_i' + a_j = 0. The rate of f_j is such a g_j; the
 ;;; rate of g_j must vanish, too: b_j = -(rate of g_j at q'' = 0).
 
-(defstruct forms-bond row right value) ; the elements a_ji, b_j and f_j or g_j
+(defstruct forms-bond row right value rate) ; the elements a_ji, b_j, f_j or g_j, and g_j
 
 (defun forms-program-bonds (holonomic nonholonomic places velocities)
   "The bonds of elements f_j and g_j; PLACES and VELOCITIES are nodes."
@@ -107,7 +107,7 @@
            collect (forms-program-bond g g (algebra-program-gradient g velocities) rates)))))
 
 (defun forms-program-bond (value g row rates)
-  (make-forms-bond :value value :row row
+  (make-forms-bond :value value :rate g :row row
                    :right (algebra-program-negate (first (algebra-program-rates (list g) rates)))))
 
 (defun forms-program-product (u v)

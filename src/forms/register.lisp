@@ -145,6 +145,13 @@
 (core-rule "ExportProgram" :any "forms/equation_program" "forms_export_program" "program" "file"
   '("language" $c) '("replace" nil))
 
+;;; Rates of a run
+
+(core-rule "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
+  "Lagrangian" "coordinates" "actions" '("laws" ((mlist simp))))
+(core-rule "rates" '("equations" "poisson") "forms/rates_of_systems" "forms_equation_rates"
+  "state_equations" '("laws" ((mlist simp))))
+
 ;;; Poisson
 
 (core-rule "poisson_equations" '("poisson") "forms/poisson" "forms_poisson_equations"

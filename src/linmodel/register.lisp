@@ -82,6 +82,14 @@
        "linmodel/programs" "linmodel_lagrange_program"
        (append *linmodel-program-inputs* '("equation_options")))
 
+;;; Rates of a run
+
+(apply #'core-rule "rates" '("mechanical") "linmodel/rates_of_scenes" "linmodel_scene_rates"
+       *linmodel-program-inputs*)
+(core-rule-given '(:edited "Lagrangian") "rates" '("mechanical") "forms/rates_of_systems"
+                 "forms_lagrange_rates" "Lagrangian" "coordinates" "actions"
+                 '("laws" ((mlist simp))))
+
 ;;; Equations in quasi-velocities
 
 (core-public "EulerPoisson" :kinds '("mechanical"))

@@ -1,0 +1,59 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Equations as a run takes them: M x' = X(t, x), X elements of a program. Every room makes such a
+;;; record of its systems, numerics takes it. Which states are angles is seen in the program, too:
+;;; what occurs in sines and cosines alone is known up to whole turns.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes"
+                "algebra/program_record"))
+
+(core-record forms-rates
+  "PROGRAM is what the elements belong to. STATES and PAIRS, (inside . outside), are names; the
+OUTPUTS ((name . value) ..) have X as `rates'. MASS: nil for the identity, else a sparse row
+((j . element) ..) for each state, j from 0. A guard is (name pivot . whole): a pivot of a
+factorisation, what is divided by, and the size that it is of where it is not small. SPLIT: nil, or
+the number n where x = (q, v), q' = v."
+  program states pairs outputs (mass nil) (guards nil) (angles nil) (split nil))
+
+(defun forms-rates-elements (rates)
+  "All elements of RATES."
+  (append (algebra-all-outputs (forms-rates-outputs rates))
+          (loop for row in (forms-rates-mass rates) append (mapcar #'cdr row))
+          (loop for (nil pivot . whole) in (forms-rates-guards rates)
+                append (list pivot whole))))
+
+(defun forms-rates-inside (name rates)
+  "What the state or velocity NAME is called in the program."
+  (let ((pair (rassoc name (forms-rates-pairs rates) :test #'alike1)))
+    (if pair (car pair) name)))
+
+;;; Angles.
+
+(defun forms-angles (names elements)
+  "Those of NAMES that occur in ELEMENTS, and there in sines and cosines alone: by themselves, or in
+sums with whole or fractional multiples."
+  (let ((plain (make-hash-table)) (turned (make-hash-table)) (nodes (algebra-live-nodes elements)))
+    (flet ((mark (element table)
+             (when (algebra-node-p element)
+               (setf (gethash (algebra-node-index element) table) t))))
+      (dolist (element elements) (mark element plain))
+      (dolist (node (reverse nodes))
+        (forms-mark-parts node (gethash (algebra-node-index node) plain)
+                          (gethash (algebra-node-index node) turned)
+                          (lambda (part) (mark part plain)) (lambda (part) (mark part turned))))
+      (remove-if-not (lambda (name)
+                       (let ((index (algebra-node-index (algebra-program-input name))))
+                         (and (gethash index turned) (not (gethash index plain)))))
+                     names))))
+
+(defun forms-mark-parts (node plain turned mark-plain mark-turned)
+  "Marks the parts of NODE, which is used PLAIN, or TURNED as an angle."
+  (let ((parts (algebra-node-parts node)))
+    (case (algebra-node-operation node)
+      ((:sine :cosine) (mapc mark-turned parts))
+      (t (let ((linear (or (member (algebra-node-operation node) '(:add :subtract :negate))
+                           (algebra-scaled-p node))))
+           (when (and turned linear) (mapc mark-turned parts))
+           (when (or plain (not linear)) (mapc mark-plain parts)))))))
