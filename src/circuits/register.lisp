@@ -40,6 +40,12 @@
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
 
+;;; Rates of a run; of a potential that is given by its equations
+
+(core-rule "rates" '("circuit") "circuits/rates_of_circuits" "circuits_circuit_rates" "circuit")
+(core-rule-given "potential" "rates" '("circuit") "forms/rates_of_systems" "forms_equation_rates"
+  "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
+
 ;;; Linear circuits have Lagrange's function, and with it every form of equations: in loop charges
 
 (core-public "LoopLagrangian" :kinds '("circuit"))

@@ -147,10 +147,21 @@
 
 ;;; Rates of a run
 
-(core-rule "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
-  "Lagrangian" "coordinates" "actions" '("laws" ((mlist simp))))
+(defparameter *forms-rates-inputs* '("Lagrangian" "coordinates" "actions" ("laws" ((mlist simp)))))
+
+(apply #'core-rule "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
+       *forms-rates-inputs*)
+(apply #'core-rule-given '("function" $routh) "rates" :any "forms/rates_of_systems"
+       "forms_routh_rates"
+       (append *forms-rates-inputs* '(("cyclic" $auto) ("momenta" ((mlist simp))))))
+(apply #'core-rule-given '("function" $hamilton) "rates" :any "forms/rates_of_systems"
+       "forms_hamilton_rates" (append *forms-rates-inputs* '(("momenta" ((mlist simp))))))
 (core-rule "rates" '("equations" "poisson") "forms/rates_of_systems" "forms_equation_rates"
-  "state_equations" '("laws" ((mlist simp))))
+  "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
+(core-rule-given "hamiltonian" "rates" '("lagrangian") "forms/rates_of_systems"
+  "forms_hamiltonian_rates"
+  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) "canonical_actions"
+  '("laws" ((mlist simp))))
 
 ;;; Poisson
 

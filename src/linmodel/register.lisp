@@ -86,6 +86,10 @@
 
 (apply #'core-rule "rates" '("mechanical") "linmodel/rates_of_scenes" "linmodel_scene_rates"
        *linmodel-program-inputs*)
+(apply #'core-rule-given '("function" $routh) "rates" '("mechanical") "linmodel/rates_of_scenes"
+       "linmodel_routh_rates" (append *linmodel-program-inputs* '(("cyclic" $auto))))
+(apply #'core-rule-given '("function" $hamilton) "rates" '("mechanical") "linmodel/rates_of_scenes"
+       "linmodel_hamilton_rates" *linmodel-program-inputs*)
 (core-rule-given '(:edited "Lagrangian") "rates" '("mechanical") "forms/rates_of_systems"
                  "forms_lagrange_rates" "Lagrangian" "coordinates" "actions"
                  '("laws" ((mlist simp))))

@@ -24,6 +24,7 @@
     (setf (aref moment 0) time)
     moment))
 
+(declaim (inline numerics-advance))
 (defun numerics-advance (moment step)
   "MOMENT later by STEP, in place; the sum of its parts loses nothing that two numbers can hold."
   (declare (type numerics-vector moment) (double-float step) (optimize speed))

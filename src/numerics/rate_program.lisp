@@ -8,7 +8,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "forms/agreement"
-                "forms/program_judge" "forms/rates" "forms/value"))
+                "forms/program_judge" "forms/rates" "forms/value" "numerics/mass_rank"
+                "numerics/rate_mass"))
 
 ;;; Values.
 
@@ -25,44 +26,30 @@
                   (core-words (list value))))
     element))
 
-(defun numerics-refuse-state-values (pairs states)
-  (loop for (name) in pairs
-        do (when (or (eq name '$t) (member name states :test #'alike1))
+(defun numerics-parameter-pairs (pairs rates)
+  "PAIRS without those of momenta that are states here; other states have no fixed value."
+  (loop for pair in pairs
+        for name = (car pair)
+        do (when (and (or (eq name '$t) (member name (forms-rates-states rates) :test #'alike1))
+                      (not (member name (forms-rates-momenta rates))))
              (core-error "~a moves and has no fixed value; that at the start belongs into start"
-                         (core-words (list name))))))
+                         (core-words (list name))))
+        unless (member name (forms-rates-momenta rates)) collect pair))
 
 ;;; Exchange. What vanishes below a line is told with the values that make it vanish.
 
 (defun numerics-exchanged-rates (rates values)
   "RATES in the current program, with their names outside and VALUES, ((name . element) ..)."
-  (let* ((copy (copy-forms-rates rates))
-         (exchange (algebra-exchange-by (append (numerics-outside-pairs rates) values)))
-         (found (algebra-exchanged
-                 (forms-rates-elements rates) exchange
-                 (lambda (denominator)
-                   (numerics-fault-division denominator rates values)))))
-    (flet ((next (element) (declare (ignore element)) (pop found)))
-      (setf (forms-rates-program copy) *algebra-program*
-            (forms-rates-pairs copy) '()
-            (forms-rates-outputs copy) (numerics-mapped-outputs #'next (forms-rates-outputs rates))
-            (forms-rates-mass copy) (loop for row in (forms-rates-mass rates)
-                                          collect (loop for (j . element) in row
-                                                        collect (cons j (next element))))
-            (forms-rates-guards copy) (loop for (name pivot . whole) in (forms-rates-guards rates)
-                                            collect (list* name (next pivot) (next whole)))))
-    copy))
+  (let ((new (forms-exchanged-rates
+              rates
+              (algebra-exchange-by (append (numerics-outside-pairs rates) values))
+              (lambda (denominator) (numerics-fault-division denominator rates values)))))
+    (setf (forms-rates-pairs new) '())
+    new))
 
 (defun numerics-outside-pairs (rates)
   (loop for (inside . outside) in (forms-rates-pairs rates)
         collect (cons inside (algebra-program-input outside))))
-
-(defun numerics-mapped-outputs (function outputs)
-  (loop for (name . value) in outputs
-        collect (cons name
-                      (cond ((or (numberp value) (algebra-node-p value)) (funcall function value))
-                            ((eq (car value) :list) (cons :list (mapcar function (cdr value))))
-                            (t (cons :matrix (loop for row in (cdr value)
-                                                   collect (mapcar function row))))))))
 
 (defun numerics-fault-division (denominator rates values)
   (let ((guilty (algebra-vanishing-values denominator values (lambda (element) (eql element 0))))
@@ -94,6 +81,19 @@
 
 ;;; The record.
 
+(defun numerics-mass-outputs (rates)
+  (let ((rows (forms-rates-mass rates)))
+    (when rows
+      (list (cons '$mass
+                  (cons :matrix (numerics-full-rows rows)))))))
+
+(defun numerics-full-rows (rows)
+  (loop with n = (length rows)
+        for row in rows
+        collect (let ((full (make-array n :initial-element 0)))
+                  (loop for (j . element) in row do (setf (aref full j) element))
+                  (coerce full 'list))))
+
 (defun numerics-guard-outputs (rates)
   (let ((guards (forms-rates-guards rates)))
     (when guards
@@ -105,12 +105,14 @@
   "The record of RATES, whose names are those outside; MORE are further fields."
   (let ((record (algebra-program-record
                  (cons '$t (forms-rates-states rates))
-                 (append (forms-rates-outputs rates) (numerics-guard-outputs rates)))))
+                 (append (forms-rates-outputs rates) (numerics-mass-outputs rates)
+                         (numerics-guard-outputs rates)))))
     (flet ((field (name list) (algebra-field name (cons '(mlist simp) list))))
       (append record
               (list (field '$states (forms-rates-states rates))
                     (field '$angles (forms-rates-angles rates))
                     (algebra-field '$split (or (forms-rates-split rates) 0))
+                    (field '$cyclic (forms-rates-cyclic rates))
                     (field '$guarded (mapcar #'first (forms-rates-guards rates))))
               more))))
 
@@ -118,20 +120,27 @@
   (count-if-not #'algebra-input-p
                 (algebra-live-nodes (algebra-all-outputs (forms-rates-outputs rates)))))
 
+;;; Rates as a run takes them.
+
+(defun numerics-run-rates (rates pairs solved)
+  "RATES in the current program with the values of PAIRS, ((name . element) ..), put in, divided by
+M as far as it goes."
+  (let ((new (numerics-exchanged-rates rates pairs)))
+    (numerics-check-exchange rates new pairs)
+    (numerics-checked-mass (numerics-settled-rates new solved) rates pairs)))
+
 ;;; For Maxima.
 
-(defun $numerics_rate_program (rates values)
+(defun $numerics_rate_program (rates values solved)
   "The record of RATES with VALUES, equations name = number."
   (with-algebra-program
-    (let ((pairs (numerics-value-pairs values)))
-      (numerics-refuse-state-values pairs (forms-rates-states rates))
-      (let ((new (numerics-exchanged-rates rates pairs)))
-        (numerics-check-exchange rates new pairs)
-        (numerics-program-record
-         new
-         (list (algebra-field '$operations_before (numerics-operations rates))
-               (algebra-field '$operations_after (numerics-operations new))
-               (algebra-field '$zero
-                              (cons '(mlist simp)
-                                    (loop for (name . element) in pairs
-                                          when (eql element 0) collect name)))))))))
+    (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+           (new (numerics-run-rates rates pairs solved)))
+      (numerics-program-record
+       new
+       (list (algebra-field '$operations_before (numerics-operations rates))
+             (algebra-field '$operations_after (numerics-operations new))
+             (algebra-field '$zero
+                            (cons '(mlist simp)
+                                  (loop for (name . element) in pairs
+                                        when (eql element 0) collect name))))))))

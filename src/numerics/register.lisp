@@ -8,7 +8,8 @@
 
 (core-public "RateProgram"
   :forms '(("lagrangian" "Lagrangian" "coordinates") ("equations" "equations"))
-  :options '("values" "rayleigh" "forces" "constraints" "nonholonomic" "laws")
+  :options '("values" "rayleigh" "forces" "constraints" "nonholonomic" "laws" "solved" "function" "cyclic"
+             "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
 (core-rule "RateProgram" :any "numerics/rate_program" "numerics_rate_program" "rates"
-  *numerics-values*)
+  *numerics-values* '("solved" nil))

@@ -1,0 +1,107 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The matrix M of M x' = X after the exchange of values, group by group of states that it joins. A
+;;; state alone is divided by its entry; a group whose entries depend on the state is solved on the
+;;; program; a constant group stays in M, which is never inverted, and so does a state without an
+;;; entry: then M is singular, and its equation algebraic. See numerics-settled-rates first.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_exchange" "algebra/program_nodes" "algebra/program_record"
+                "forms/rates" "forms/sparse_elimination"))
+
+;;; Groups.
+
+(defun numerics-groups (rows)
+  "The lists of places, each sorted, that the sparse ROWS join."
+  (let ((parent (make-array (length rows))) (members (make-hash-table)))
+    (dotimes (i (length rows)) (setf (aref parent i) i))
+    (labels ((root (i) (if (= i (aref parent i)) i (setf (aref parent i) (root (aref parent i))))))
+      (loop for row in rows
+            for i from 0
+            do (loop for (j . element) in row
+                     unless (eql element 0) do (setf (aref parent (root i)) (root j))))
+      (loop for i from (1- (length rows)) downto 0 do (push i (gethash (root i) members)))
+      (sort (loop for group being the hash-values of members collect group) #'< :key #'first))))
+
+(defun numerics-group-rows (group rows)
+  "The ROWS of GROUP, their places counted in it."
+  (loop for i in group
+        collect (loop for (j . element) in (nth i rows)
+                      collect (cons (position j group) element))))
+
+(defun numerics-constant-p (elements states)
+  "Whether ELEMENTS depend neither on STATES nor on the time."
+  (notany (lambda (name) (or (eq name '$t) (member name states :test #'algebra-same-name-p)))
+          (algebra-inputs-of elements)))
+
+;;; Each group.
+
+(defun numerics-settled-rates (rates solved)
+  "RATES with X divided by M as far as it goes; SOLVED: constant groups, too."
+  (if (null (forms-rates-mass rates))
+      rates
+      (let* ((rows (forms-rates-mass rates)) (copy (copy-forms-rates rates)) (kept '())
+             (right (coerce (numerics-right-sides rates) 'vector)))
+        (dolist (group (numerics-groups rows))
+          (unless (numerics-settle-group copy group (numerics-group-rows group rows) right solved)
+            (push group kept)))
+        (setf (forms-rates-mass copy) (and kept (numerics-kept-rows (reverse kept) rows)))
+        (numerics-set-right-sides copy (coerce right 'list))
+        copy)))
+
+(defun numerics-right-sides (rates)
+  (cdr (cdr (assoc '$rates (forms-rates-outputs rates)))))
+
+(defun numerics-set-right-sides (rates elements)
+  (setf (forms-rates-outputs rates)
+        (cons (cons '$rates (cons :list elements))
+              (remove '$rates (forms-rates-outputs rates) :key #'car))))
+
+(defun numerics-settle-group (rates group rows right solved)
+  "Divides the elements of GROUP in the vector RIGHT; nil where the group stays."
+  (let* ((elements (loop for row in rows append (mapcar #'cdr row)))
+         (constant (numerics-constant-p elements (forms-rates-states rates))))
+    (cond ((and (not solved) (every (lambda (element) (eql element 0)) elements)) nil)
+          ((or (null (cdr group)) solved (not constant))
+           (numerics-solve-group rates group rows right constant)
+           t))))
+
+(defun numerics-solve-group (rates group rows right constant)
+  (let* ((names (mapcar (lambda (i) (nth i (forms-rates-states rates))) group))
+         (rows (numerics-symmetric-rows rows names))
+         (steps (forms-sparse-factors
+                 rows (lambda (place)
+                        (core-error "the matrix of ~{~a~^, ~} is singular: what moves ~a does not ~
+                                     follow from the equations"
+                                    (mapcar (lambda (x) (core-words (list x))) names)
+                                    (core-words (list (nth place names))))))))
+    (loop for i in group
+          for element in (forms-sparse-solution steps (mapcar (lambda (i) (aref right i)) group))
+          do (setf (aref right i) element))
+    (unless constant
+      (setf (forms-rates-guards rates)
+            (append (forms-rates-guards rates) (numerics-group-guards names rows steps))))))
+
+(defun numerics-symmetric-rows (rows names)
+  "ROWS, or an error where they are not symmetric."
+  (loop for row in rows
+        for i from 0
+        do (loop for (j . element) in row
+                 unless (eql element (cdr (assoc i (nth j rows))))
+                   do (core-error "the matrix of ~{~a~^, ~} is not symmetric; leave solved = true out"
+                                  (mapcar (lambda (x) (core-words (list x))) names))))
+  rows)
+
+(defun numerics-group-guards (names rows steps)
+  (loop for step in steps
+        for place = (forms-sparse-step-place step)
+        collect (list* (nth place names) (forms-sparse-step-pivot step)
+                       (cdr (assoc place (nth place rows))))))
+
+(defun numerics-kept-rows (groups rows)
+  "ROWS of the GROUPS that stay, rows of the unit matrix for the others."
+  (let ((kept (apply #'append groups)))
+    (loop for row in rows
+          for i from 0
+          collect (if (member i kept) row (list (cons i 1))))))
