@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem"))
+  (core-require "core/nearest" "numerics/observers" "numerics/problem"))
 
 (core-record numerics-wishes
   "METHOD a symbol; POINTS a number of rows or a list of times; TOLERANCE as typed; EVENTS a list of
@@ -15,8 +15,6 @@ methods with a fixed one, or 0."
   method points tolerance events stop digits step)
 
 ;;; Numbers
-
-(defparameter *numerics-exact-digits* 400 "Digits of a span of time at most.")
 
 (defun numerics-double (e what)
   "The double-float number next to the Maxima constant E; WHAT it is, for the message."
@@ -51,16 +49,10 @@ methods with a fixed one, or 0."
 (defun numerics-read-points (points from to)
   "The vector of the times of the rows between FROM and TO, double-float numbers."
   (cond ((and (integerp points) (<= 2 points *numerics-most-rows*))
-         (numerics-even-times points from to))
+         (numerics-uniform-times from to points))
         ((numerics-items points) (numerics-given-times (numerics-items points) from to))
         (t (core-error "points is the number of rows, from 2 to ~d, or a list of times; found ~a"
                        *numerics-most-rows* (core-words (list points))))))
-
-(defun numerics-even-times (n from to)
-  (let ((times (numerics-zeros n)))
-    (dotimes (k n times)
-      (setf (aref times k)
-            (if (= k (1- n)) to (+ from (* (- to from) (/ (float k 1d0) (1- n)))))))))
 
 (defun numerics-given-times (items from to)
   (let ((times (coerce (mapcar (lambda (e) (numerics-double e "a time in points")) items)

@@ -1,71 +1,156 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Simulate: a run of M x' = X(t, x) from start to end, as rows [t, x1, .., xn]. The program of the
-;;; rates with its values put in becomes a problem; the method steps; rows, events, drifts and the
-;;; constraints look on. A run that does not reach its end is an error that says where and why, and
-;;; its rows so far are kept as a part. Look first at numerics-run-wished.
+;;; Simulate: the rows [t, x1, .., xn] of a run, the last one where it ended, and what is told of it:
+;;; the method, its steps and evaluations, seconds. A run that does not reach its end is an error that
+;;; says where and why; its rows so far are kept as a part. Look first at $numerics_simulate.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/rates"
-                "numerics/dormand_prince" "numerics/events" "numerics/functions" "numerics/native"
-                "numerics/observers" "numerics/problem" "numerics/program" "numerics/rate_program"
-                "numerics/run_options"))
+  (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates" "numerics/events"
+                "numerics/native" "numerics/observers" "numerics/problem" "numerics/rate_program"
+                "numerics/run" "numerics/run_options"))
 
-(defstruct numerics-run
-  rates wishes                ; forms-rates with numbers only, numerics-wishes
-  problem controls            ; what the method takes
-  (moment (numerics-zeros 2) :type numerics-vector) ; the start
-  (state (numerics-zeros 0) :type numerics-vector)
-  rows events drifts          ; what looks on
-  method outcome
-  (seconds 0d0))              ; of the method alone
+;;; Methods
 
-;;; From rates and wishes to a run. A name without a number cannot be run.
+(defparameter *numerics-methods*
+  '(($auto "numerics/automatic" numerics-automatic)
+    ($dop853 "numerics/dormand_prince" numerics-dopri)
+    ($radau "numerics/radau" numerics-radau)
+    ($gauss "numerics/gauss" numerics-gauss)
+    ($dlsode "numerics/dlsode" numerics-dlsode))
+  "Each row: the word for a method, its part and its function.")
 
-(defun numerics-check-closed (rates)
-  (let ((open (remove-if (lambda (name)
-                           (or (member name '($t $%pi $%e))
-                               (member name (forms-rates-states rates) :test #'alike1)))
-                         (algebra-inputs-of (forms-rates-elements rates)))))
-    (when open
-      (core-error "~{~a~^, ~} ha~:[s~;ve~] no value; give parameters = [~a = .., ..] or the key ~
-                   values"
-                  (mapcar (lambda (name) (core-words (list name))) open) (cdr open)
-                  (core-words (list (first open)))))))
+(defparameter *numerics-implicit-methods* '($auto $radau $dlsode) "Those that take a jacobian.")
 
-(defun numerics-new-run (rates start span wishes)
-  "The run of RATES from START over SPAN, everything checked."
-  (numerics-check-closed rates)
-  (destructuring-bind (from to)
-      (mapcar (lambda (e) (numerics-double e "an end of the span")) (numerics-read-span span))
-    (let* ((names (forms-rates-states rates))
-           (state (map 'numerics-vector
-                       (lambda (value name)
-                         (numerics-double value (format nil "the start value of ~a"
-                                                        (core-words (list name)))))
-                       (numerics-read-start start names (numerics-required-names rates)) names))
-           (run (make-numerics-run :rates rates :wishes wishes :state state
-                                   :moment (numerics-moment from)
-                                   :problem (numerics-problem-of-rates rates))))
-      (setf (numerics-run-controls run) (numerics-controls-of rates wishes to))
-      (numerics-check-start run)
-      run)))
+(defun numerics-method (run)
+  (destructuring-bind (part function)
+      (cdr (assoc (numerics-wishes-method (numerics-run-wishes run)) *numerics-methods*))
+    (core-require part)
+    function))
 
-(defun numerics-required-names (rates)
-  "States whose start must be given: velocities that are not named are 0."
-  (remove-if #'numerics-velocity-p (forms-rates-states rates)))
+(defun numerics-prepare-method (run)
+  "The function of the method, with what it needs of the problem."
+  (let ((problem (numerics-run-problem run))
+        (method (numerics-wishes-method (numerics-run-wishes run))))
+    (cond ((member method *numerics-implicit-methods*) (numerics-add-jacobian problem))
+          ((numerics-problem-mass problem)
+           (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is not ~
+                        divided out; take method = radau" (core-spelling method))))
+    (numerics-method run)))
 
-(defun numerics-controls-of (rates wishes end)
-  (multiple-value-bind (relative scales)
-      (numerics-read-tolerance (numerics-wishes-tolerance wishes) (forms-rates-states rates))
-    (make-numerics-controls :end end :relative relative
-                            :scales (numerics-scales-with-angles scales rates))))
+;;; What looks on
 
-(defun numerics-scales-with-angles (scales rates)
-  "SCALES; that of an angle is 1."
-  (loop for name in (forms-rates-states rates)
-        for k from 0
-        do (when (member name (forms-rates-angles rates) :test #'alike1)
-             (setf (aref scales k) 1d0)))
-  scales)
+(defun numerics-guard-part (run)
+  "A part of an observer that stops where a pivot is lost."
+  (lambda (step)
+    (let ((lost (numerics-lost-pivot run (numerics-step-to step) (numerics-step-after step))))
+      (when lost
+        (setf (numerics-run-lost run) lost)
+        :stop))))
+
+(defun numerics-run-observer (run)
+  (numerics-observer
+   (remove nil
+           (list (and (numerics-run-guards run) (numerics-guard-part run))
+                 (and (numerics-run-events run)
+                      (lambda (step) (numerics-see-events (numerics-run-events run) step)))
+                 (lambda (step) (numerics-see-rows (numerics-run-rows run) step))
+                 (numerics-progress-part (numerics-run-controls run))))))
+
+(defparameter *numerics-share-of-time* 98/100
+  "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
+
+(defun numerics-carry-out (run)
+  "Makes the RUN; the sentence of the stop where its time was up."
+  (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
+         (began (numerics-seconds)) (outcome nil))
+    (multiple-value-bind (value stop)
+        (core-within *numerics-share-of-time*
+                     (lambda ()
+                       (numerics-with-masked-traps
+                         (setq outcome (funcall method (numerics-run-problem run)
+                                                (numerics-run-controls run)
+                                                (copy-seq (numerics-run-moment run))
+                                                (copy-seq (numerics-run-state run)) observer)))))
+      (declare (ignore value))
+      (setf (numerics-run-seconds run) (- (numerics-seconds) began)
+            (numerics-run-outcome run) outcome)
+      (when outcome (numerics-finish-rows (numerics-run-rows run) outcome))
+      stop)))
+
+;;; What is told
+
+(defun numerics-trouble (run)
+  "Why the RUN did not come to its end, a phrase; nil where it did."
+  (let ((outcome (numerics-run-outcome run)))
+    (if (numerics-run-lost run)
+        (format nil "the mass matrix becomes singular: of the inertia of ~a ~,2g of 1 is left when ~
+                     the bodies beyond it yield"
+                (first (numerics-run-lost run)) (second (numerics-run-lost run)))
+        (ecase (numerics-outcome-status outcome)
+          ((:end :stopped) nil)
+          (:not-finite "the right-hand side has no finite value there")
+          (:smallest-step "the step became as small as the last place of t: the solution or its ~
+                           right-hand side is singular there")
+          (:no-convergence "the equations of the implicit steps could not be solved")
+          (:most-steps "the most steps that were allowed are made")
+          (:singular "the matrix of the implicit steps is singular")))))
+
+(defun numerics-place-text (run)
+  "Where the RUN ended: time and state."
+  (let ((outcome (numerics-run-outcome run)))
+    (format nil "t = ~a (~{~a = ~,6g~^, ~})"
+            (core-words (list (aref (numerics-outcome-moment outcome) 0)))
+            (loop for name in (forms-rates-states (numerics-run-rates run))
+                  for x across (numerics-outcome-state outcome)
+                  append (list (numerics-name-text name) x)))))
+
+(defun numerics-tell-end (run stop)
+  "A RUN that did not come to its end makes a result that is only a part."
+  (let ((trouble (or stop (numerics-trouble run))))
+    (cond (stop (core-partial "~a; the rows so far are kept as a part" stop))
+          (trouble (core-partial "the run ended at ~a, before t = ~a: ~a~@[; ~a~]"
+                                 (numerics-place-text run)
+                                 (core-words (list (numerics-controls-end
+                                                    (numerics-run-controls run))))
+                                 (format nil trouble)
+                                 (numerics-outcome-about (numerics-run-outcome run)))))))
+
+(defun numerics-report (run)
+  "What stands beside the rows, as a Maxima list."
+  (let ((counts (numerics-controls-counts (numerics-run-controls run)))
+        (outcome (numerics-run-outcome run)))
+    (apply #'algebra-list
+           (append
+            (list (algebra-field '$method (numerics-wishes-method (numerics-run-wishes run)))
+                  (algebra-field '$tolerance (numerics-controls-relative
+                                              (numerics-run-controls run)))
+                  (algebra-field '$steps (numerics-counts-steps counts))
+                  (algebra-field '$rejected (numerics-counts-rejected counts))
+                  (algebra-field '$rates (numerics-counts-rates counts))
+                  (algebra-field '$jacobians (numerics-counts-jacobians counts))
+                  (algebra-field '$factorisations (numerics-counts-factorisations counts))
+                  (algebra-field '$seconds (numerics-run-seconds run)))
+            (when (and outcome (numerics-outcome-about outcome))
+              (list (algebra-field '$about (numerics-outcome-about outcome))))))))
+
+(defun numerics-rows-list (rows)
+  "ROWS as a Maxima list of lists."
+  (let ((numbers (numerics-rows-numbers rows)) (width (numerics-rows-width rows)))
+    (apply #'algebra-list
+           (loop for k below (numerics-rows-count rows)
+                 collect (apply #'algebra-list
+                                (loop for j below width
+                                      collect (aref numbers (+ j (* k width)))))))))
+
+;;; For Maxima.
+
+(defun $numerics_simulate (rates values start span wishes)
+  "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say."
+  (with-algebra-program
+    (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+           (run (numerics-new-run (numerics-run-rates rates pairs nil) pairs start span wishes))
+           (stop (numerics-carry-out run)))
+      (numerics-tell-end run stop)
+      (core-report "run" (numerics-report run))
+      (numerics-rows-list (numerics-run-rows run)))))
