@@ -194,7 +194,7 @@
                (gather (function) (numerics-gatherer function layout plan)))
           (let ((first (stage 0 1)) (second (stage 1 (1+ states))))
             (numerics-entries plan work (lambda (node) (numerics-layout-slot layout node))
-                              (if (numerics-plan-late plan) first (gather first))
+                              (if (numerics-plan-seeded plan) first (gather first))
                               (gather second))))))))
 
 (defun numerics-machine-stage (instructions lefts rights at)
