@@ -12,7 +12,7 @@
                 "numerics/observers" "numerics/problem" "numerics/program" "numerics/rates_problem"
                 "numerics/routine" "numerics/run_options"))
 
-(defstruct numerics-run
+(defstruct numerics-simulation
   rates values wishes program problem controls      ; VALUES: ((name . element) ..)
   (moment (numerics-zeros 2) :type numerics-vector) ; the start
   (state (numerics-zeros 0) :type numerics-vector)
@@ -51,16 +51,16 @@ element)."
   (destructuring-bind (from to)
       (mapcar (lambda (e) (numerics-double e "an end of the span")) (numerics-read-span span))
     (let* ((program (numerics-program-of rates))
-           (run (make-numerics-run
+           (run (make-numerics-simulation
                  :rates rates :values values :wishes wishes :program program
                  :moment (numerics-moment from)
                  :state (numerics-start-vector rates start)
                  :problem (numerics-problem-of program :angles (numerics-angle-places rates)
                                                        :jacobian nil))))
-      (setf (numerics-run-controls run) (numerics-controls-of rates wishes to)
-            (numerics-run-guards run) (numerics-guard-routine program)
-            (numerics-run-rows run) (numerics-wished-rows run from to)
-            (numerics-run-events run) (numerics-wished-events run))
+      (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
+            (numerics-simulation-guards run) (numerics-guard-routine program)
+            (numerics-simulation-rows run) (numerics-wished-rows run from to)
+            (numerics-simulation-events run) (numerics-wished-events run))
       (numerics-check-start run)
       run)))
 
@@ -94,17 +94,17 @@ element)."
 ;;; What looks on
 
 (defun numerics-wished-rows (run from to)
-  (numerics-new-rows (numerics-read-points (numerics-wishes-points (numerics-run-wishes run)) from to)
-                     (numerics-run-moment run) (numerics-run-state run) nil))
+  (numerics-new-rows (numerics-read-points (numerics-wishes-points (numerics-simulation-wishes run)) from to)
+                     (numerics-simulation-moment run) (numerics-simulation-state run) nil))
 
 (defun numerics-wished-events (run)
   "What looks for the events, each an expression or an equation; nil for none."
-  (let* ((wishes (numerics-run-wishes run)) (expressions (numerics-event-expressions wishes))
+  (let* ((wishes (numerics-simulation-wishes run)) (expressions (numerics-event-expressions wishes))
          (stop (and (numerics-wishes-stop wishes) t)))
     (when expressions
       (numerics-new-events
        (numerics-expression-routine run expressions)
-       (length (numerics-run-state run))
+       (length (numerics-simulation-state run))
        (mapcar (constantly 0) expressions) (mapcar (constantly stop) expressions) nil))))
 
 (defun numerics-event-expressions (wishes)
@@ -118,11 +118,11 @@ element)."
 
 (defun numerics-expression-routine (run expressions)
   "The routine of the values of EXPRESSIONS in t, the states and what has a value."
-  (let ((program (numerics-run-program run)))
+  (let ((program (numerics-simulation-program run)))
     (with-numerics-program program
       (let ((elements (algebra-exchanged (mapcar #'algebra-program-element expressions)
-                                         (algebra-exchange-by (numerics-run-values run)))))
-        (numerics-check-names (numerics-run-rates run) elements)
+                                         (algebra-exchange-by (numerics-simulation-values run)))))
+        (numerics-check-names (numerics-simulation-rates run) elements)
         (numerics-routine program elements)))))
 
 ;;; The start
@@ -131,24 +131,24 @@ element)."
   "Share of itself that a pivot may lose by subtraction: below nothing is left of 16 digits.")
 
 (defun numerics-check-start (run)
-  (numerics-check-pivots run (numerics-run-moment run) (numerics-run-state run))
-  (let ((rates (numerics-zeros (length (numerics-run-state run)))))
+  (numerics-check-pivots run (numerics-simulation-moment run) (numerics-simulation-state run))
+  (let ((rates (numerics-zeros (length (numerics-simulation-state run)))))
     (numerics-with-masked-traps
-      (funcall (numerics-problem-rates (numerics-run-problem run))
-               (numerics-run-moment run) (numerics-run-state run) rates))
+      (funcall (numerics-problem-rates (numerics-simulation-problem run))
+               (numerics-simulation-moment run) (numerics-simulation-state run) rates))
     (loop for rate across rates
-          for name in (forms-rates-states (numerics-run-rates run))
+          for name in (forms-rates-states (numerics-simulation-rates run))
           do (unless (numerics-finite-p rate)
                (core-error "at the start the rate of ~a has no finite value; the equations are ~
                             singular there: start elsewhere" (numerics-name-text name))))))
 
 (defun numerics-lost-pivot (run moment state)
   "The coordinate whose pivot is lost at STATE, and what is left of it; nil where there is none."
-  (when (numerics-run-guards run)
-    (let ((shares (numerics-zeros (length (forms-rates-guards (numerics-run-rates run))))))
-      (numerics-with-masked-traps (funcall (numerics-run-guards run) moment state shares))
+  (when (numerics-simulation-guards run)
+    (let ((shares (numerics-zeros (length (forms-rates-guards (numerics-simulation-rates run))))))
+      (numerics-with-masked-traps (funcall (numerics-simulation-guards run) moment state shares))
       (loop for share across shares
-            for (name) in (forms-rates-guards (numerics-run-rates run))
+            for (name) in (forms-rates-guards (numerics-simulation-rates run))
             unless (> (abs share) *numerics-least-pivot*)
               do (return (list (numerics-name-text name) share))))))
 

@@ -24,14 +24,14 @@
 
 (defun numerics-method (run)
   (destructuring-bind (part function)
-      (cdr (assoc (numerics-wishes-method (numerics-run-wishes run)) *numerics-methods*))
+      (cdr (assoc (numerics-wishes-method (numerics-simulation-wishes run)) *numerics-methods*))
     (core-require part)
     function))
 
 (defun numerics-prepare-method (run)
   "The function of the method, with what it needs of the problem."
-  (let ((problem (numerics-run-problem run))
-        (method (numerics-wishes-method (numerics-run-wishes run))))
+  (let ((problem (numerics-simulation-problem run))
+        (method (numerics-wishes-method (numerics-simulation-wishes run))))
     (cond ((member method *numerics-implicit-methods*) (numerics-add-jacobian problem))
           ((numerics-problem-mass problem)
            (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is not ~
@@ -45,19 +45,19 @@
   (lambda (step)
     (let ((lost (numerics-lost-pivot run (numerics-step-to step) (numerics-step-after step))))
       (when lost
-        (setf (numerics-run-lost run) lost)
+        (setf (numerics-simulation-lost run) lost)
         :stop))))
 
 (defun numerics-run-observer (run)
   (numerics-observer
    (remove nil
-           (list (and (numerics-run-guards run) (numerics-guard-part run))
-                 (and (numerics-run-events run)
-                      (lambda (step) (numerics-see-events (numerics-run-events run) step)))
-                 (lambda (step) (numerics-see-rows (numerics-run-rows run) step))
-                 (numerics-progress-part (numerics-run-controls run))))))
+           (list (and (numerics-simulation-guards run) (numerics-guard-part run))
+                 (and (numerics-simulation-events run)
+                      (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
+                 (lambda (step) (numerics-see-rows (numerics-simulation-rows run) step))
+                 (numerics-progress-part (numerics-simulation-controls run))))))
 
-(defparameter *numerics-share-of-time* 98/100
+(defparameter *numerics-share-of-time* 9/10
   "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
 
 (defun numerics-carry-out (run)
@@ -68,25 +68,25 @@
         (core-within *numerics-share-of-time*
                      (lambda ()
                        (numerics-with-masked-traps
-                         (setq outcome (funcall method (numerics-run-problem run)
-                                                (numerics-run-controls run)
-                                                (copy-seq (numerics-run-moment run))
-                                                (copy-seq (numerics-run-state run)) observer)))))
+                         (setq outcome (funcall method (numerics-simulation-problem run)
+                                                (numerics-simulation-controls run)
+                                                (copy-seq (numerics-simulation-moment run))
+                                                (copy-seq (numerics-simulation-state run)) observer)))))
       (declare (ignore value))
-      (setf (numerics-run-seconds run) (- (numerics-seconds) began)
-            (numerics-run-outcome run) outcome)
-      (when outcome (numerics-finish-rows (numerics-run-rows run) outcome))
+      (setf (numerics-simulation-seconds run) (- (numerics-seconds) began)
+            (numerics-simulation-outcome run) outcome)
+      (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))
       stop)))
 
 ;;; What is told
 
 (defun numerics-trouble (run)
   "Why the RUN did not come to its end, a phrase; nil where it did."
-  (let ((outcome (numerics-run-outcome run)))
-    (if (numerics-run-lost run)
+  (let ((outcome (numerics-simulation-outcome run)))
+    (if (numerics-simulation-lost run)
         (format nil "the mass matrix becomes singular: of the inertia of ~a ~,2g of 1 is left when ~
                      the bodies beyond it yield"
-                (first (numerics-run-lost run)) (second (numerics-run-lost run)))
+                (first (numerics-simulation-lost run)) (second (numerics-simulation-lost run)))
         (ecase (numerics-outcome-status outcome)
           ((:end :stopped) nil)
           (:not-finite "the right-hand side has no finite value there")
@@ -96,14 +96,22 @@
           (:most-steps "the most steps that were allowed are made")
           (:singular "the matrix of the implicit steps is singular")))))
 
+(defun numerics-short-number (x)
+  "X to six digits, as a person writes it."
+  (let ((size (abs x)))
+    (string-right-trim
+     "." (if (or (= x 0d0) (<= 1d-3 size 1d6))
+             (string-right-trim "0" (format nil "~,6f" x))
+             (format nil "~,5e" x)))))
+
 (defun numerics-place-text (run)
   "Where the RUN ended: time and state."
-  (let ((outcome (numerics-run-outcome run)))
-    (format nil "t = ~a (~{~a = ~,6g~^, ~})"
+  (let ((outcome (numerics-simulation-outcome run)))
+    (format nil "t = ~a (~{~a = ~a~^, ~})"
             (core-words (list (aref (numerics-outcome-moment outcome) 0)))
-            (loop for name in (forms-rates-states (numerics-run-rates run))
+            (loop for name in (forms-rates-states (numerics-simulation-rates run))
                   for x across (numerics-outcome-state outcome)
-                  append (list (numerics-name-text name) x)))))
+                  append (list (numerics-name-text name) (numerics-short-number x))))))
 
 (defun numerics-tell-end (run stop)
   "A RUN that did not come to its end makes a result that is only a part."
@@ -112,36 +120,50 @@
           (trouble (core-partial "the run ended at ~a, before t = ~a: ~a~@[; ~a~]"
                                  (numerics-place-text run)
                                  (core-words (list (numerics-controls-end
-                                                    (numerics-run-controls run))))
+                                                    (numerics-simulation-controls run))))
                                  (format nil trouble)
-                                 (numerics-outcome-about (numerics-run-outcome run)))))))
+                                 (numerics-outcome-about (numerics-simulation-outcome run)))))))
 
 (defun numerics-report (run)
   "What stands beside the rows, as a Maxima list."
-  (let ((counts (numerics-controls-counts (numerics-run-controls run)))
-        (outcome (numerics-run-outcome run)))
+  (let ((counts (numerics-controls-counts (numerics-simulation-controls run)))
+        (outcome (numerics-simulation-outcome run)))
     (apply #'algebra-list
            (append
-            (list (algebra-field '$method (numerics-wishes-method (numerics-run-wishes run)))
+            (list (algebra-field '$method (numerics-wishes-method (numerics-simulation-wishes run)))
                   (algebra-field '$tolerance (numerics-controls-relative
-                                              (numerics-run-controls run)))
+                                              (numerics-simulation-controls run)))
                   (algebra-field '$steps (numerics-counts-steps counts))
                   (algebra-field '$rejected (numerics-counts-rejected counts))
                   (algebra-field '$rates (numerics-counts-rates counts))
                   (algebra-field '$jacobians (numerics-counts-jacobians counts))
                   (algebra-field '$factorisations (numerics-counts-factorisations counts))
-                  (algebra-field '$seconds (numerics-run-seconds run)))
+                  (algebra-field '$seconds (numerics-simulation-seconds run)))
             (when (and outcome (numerics-outcome-about outcome))
               (list (algebra-field '$about (numerics-outcome-about outcome))))))))
 
-(defun numerics-rows-list (rows)
-  "ROWS as a Maxima list of lists."
+(defun numerics-rows-of (rows)
+  "ROWS as lists of numbers."
   (let ((numbers (numerics-rows-numbers rows)) (width (numerics-rows-width rows)))
+    (loop for k below (numerics-rows-count rows)
+          collect (loop for j below width collect (aref numbers (+ j (* k width)))))))
+
+(defun numerics-event-rows (run)
+  "The rows of the events of RUN in order of time."
+  (let ((events (numerics-simulation-events run)))
+    (when events
+      (loop for event in (reverse (numerics-events-found events))
+            collect (cons (aref (numerics-event-moment event) 0)
+                          (coerce (numerics-event-state event) 'list))))))
+
+(defun numerics-all-rows (run)
+  "All rows of RUN as a Maxima list; those of events stand at their times."
+  (let ((rows (merge 'list (numerics-rows-of (numerics-simulation-rows run))
+                     (numerics-event-rows run) #'< :key #'first)))
     (apply #'algebra-list
-           (loop for k below (numerics-rows-count rows)
-                 collect (apply #'algebra-list
-                                (loop for j below width
-                                      collect (aref numbers (+ j (* k width)))))))))
+           (loop for (row next) on rows
+                 unless (and next (= (first row) (first next)))
+                   collect (apply #'algebra-list row)))))
 
 ;;; For Maxima.
 
@@ -153,4 +175,4 @@
            (stop (numerics-carry-out run)))
       (numerics-tell-end run stop)
       (core-report "run" (numerics-report run))
-      (numerics-rows-list (numerics-run-rows run)))))
+      (numerics-all-rows run))))
