@@ -29,12 +29,12 @@
 (defun numerics-stages (plan)
   "The statements of both stages."
   (let* ((early (numerics-plan-nodes plan)) (late (numerics-plan-late plan))
-         (last (or late early))
+         (seeded (numerics-plan-seeded plan)) (last (if seeded late early))
          (copies (loop for (place . node) in (numerics-plan-outputs plan)
                        unless (member node last :test #'eq) collect (list* :copy place node))))
-    (multiple-value-bind (states seeds) (numerics-kept-inputs plan (and late copies))
+    (multiple-value-bind (states seeds) (numerics-kept-inputs plan (and seeded copies))
       (flet ((keep (inputs) (loop for input in inputs collect (cons :keep input))))
-        (if late
+        (if seeded
             (list (append (keep states) early) (append (keep seeds) late copies))
             (list (append (keep states) early copies) '()))))))
 
@@ -138,7 +138,7 @@ the second stage needs, those of its COPIES too."
           (t `(numerics-element w ,(numerics-slot code element))))))
 
 (defun numerics-constant-text (code value)
-  (if (numerics-finite-p value)
+  (if (numerics-with-masked-traps (numerics-finite-p value))
       value
       `(numerics-element w ,(numerics-constant-slot code value))))
 
@@ -148,7 +148,7 @@ they are kept."
   (let ((place (numerics-input-place (numerics-code-plan code) node)))
     (when (and place (not (eq (car place) :time))
                (not (and (eq (car place) :state) (numerics-slot code node)
-                         (numerics-plan-late (numerics-code-plan code)))))
+                         (numerics-plan-seeded (numerics-code-plan code)))))
       `(numerics-element x ,(cdr place)))))
 
 (defun numerics-operation-text (code node written)
@@ -237,7 +237,8 @@ they are kept."
 
 (defun numerics-new-code (plan)
   "The code and two lists of parts."
-  (let ((code (make-numerics-code :plan plan)) (last (or (numerics-plan-late plan)
+  (let ((code (make-numerics-code :plan plan)) (last (if (numerics-plan-seeded plan)
+                                                         (numerics-plan-late plan)
                                                          (numerics-plan-nodes plan))))
     (destructuring-bind (early late) (mapcar #'numerics-cut (numerics-stages plan))
       (loop for (place . node) in (numerics-plan-outputs plan)

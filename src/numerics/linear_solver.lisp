@@ -144,15 +144,15 @@ where it is chosen here."
        (numerics-gather x order u)
        (cond (y (numerics-gather y order v)
                 (numerics-substitute-complex solver u v)
-                (numerics-scatter v order y))
+                (numerics-put-in-order v order y))
              (t (numerics-substitute solver u)))
-       (numerics-scatter u order x)))))
+       (numerics-put-in-order u order x)))))
 
 (defun numerics-gather (x order y)
   (declare (type numerics-vector x y) (type numerics-indices order) (optimize speed))
   (dotimes (k (length order)) (setf (aref y k) (aref x (aref order k)))))
 
-(defun numerics-scatter (x order y)
+(defun numerics-put-in-order (x order y)
   (declare (type numerics-vector x y) (type numerics-indices order) (optimize speed))
   (dotimes (k (length order)) (setf (aref y (aref order k)) (aref x k))))
 

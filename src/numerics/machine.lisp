@@ -13,9 +13,6 @@
 
 ;;; Runs. In a turn the cosine comes with the sine, two places further on for the next one.
 
-(defun numerics-layout-slot (layout node)
-  (gethash (algebra-node-index node) (numerics-layout-slots layout)))
-
 (defun numerics-unit (plan node)
   "The node that NODE is computed with."
   (let ((turn (numerics-turn plan node)))
@@ -194,7 +191,7 @@
                (gather (function) (numerics-gatherer function layout plan)))
           (let ((first (stage 0 1)) (second (stage 1 (1+ states))))
             (numerics-entries plan work (lambda (node) (numerics-layout-slot layout node))
-                              (if (numerics-plan-late plan) first (gather first))
+                              (if (numerics-plan-seeded plan) first (gather first))
                               (gather second))))))))
 
 (defun numerics-machine-stage (instructions lefts rights at)

@@ -128,7 +128,7 @@
 
 #-sbcl
 (defun numerics-plain-elementary (operation x &optional (y 1d0))
-  (flet ((finite-p (x) (= (- x x) 0d0)))
+  (flet ((finite-p (x) (<= (abs x) most-positive-double-float)))
     (let ((value (cond ((and (finite-p x) (finite-p y)) (numerics-plain-value operation x y))
                        ((and (eq operation :exponential) (< x 0d0)) 0d0)
                        ((and (member operation '(:exponential :logarithm)) (> x 0d0)) x))))

@@ -21,6 +21,7 @@
   nodes     ; operations of the first stage
   late      ; operations that depend on a seed
   turns     ; index of an angle -> its sine and cosine, in their order; one where it has but one
+  seeded    ; whether there are two stages
   states length) ; the lengths of the vectors of states and outputs
 
 (defun numerics-new-plan (program outputs length &optional seeds)
@@ -28,7 +29,7 @@
   (let* ((inputs (numerics-input-places program seeds))
          (nodes (algebra-live-nodes (mapcar #'cdr outputs)))
          (plan (make-numerics-plan :inputs inputs :states (length (numerics-program-names program))
-                                   :length length)))
+                                   :length length :seeded (and seeds t))))
     (numerics-check-inputs nodes inputs)
     (setf (numerics-plan-constants plan) (numerics-constant-values nodes (mapcar #'cdr outputs)))
     (numerics-settle-outputs plan outputs nodes seeds)

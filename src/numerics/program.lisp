@@ -15,7 +15,8 @@
   names    ; the states, expressions
   rates    ; elements X_i
   mass     ; nil for the identity, else rows ((column . element) ..) of constants, columns from 0
-  guards)  ; elements
+  guards   ; elements
+  (slopes :unknown)) ; rows ((j . dX_i/dx_j) ..), or nil where they would be too long
 
 (defmacro with-numerics-program (program &body body)
   `(let ((*algebra-program* (numerics-program-algebra ,program))) ,@body))

@@ -13,9 +13,9 @@
 place of a node in it."
   (let ((after (numerics-after plan slot)) (states (numerics-plan-states plan))
         (length (numerics-plan-length plan)))
-    (if (numerics-plan-late plan)
-        (values (numerics-entry work first states nil nil) (numerics-seed-entry work second states after
-                                                                                length))
+    (if (numerics-plan-seeded plan)
+        (values (numerics-entry work first states nil nil)
+                (numerics-seed-entry work second states after length))
         (values (numerics-entry work first states after length) nil))))
 
 (defun numerics-entry (work compute states after length)
