@@ -77,13 +77,14 @@ the exchange of VALUES, for the message."
   (let ((doubles (loop for row in rows
                        collect (loop for (j . x) in row
                                      collect (cons j (coerce (/ x (ash 1 forms-digits))
-                                                             'double-float))))))
+                                                             'double-float)))))
+        (names (numerics-guarded-names rates group)))
     (when (numerics-symmetric-p rows)
       (loop for step in (forms-sparse-factors
                          doubles (constantly 1d0)
                          (make-forms-arithmetic :subtract #'- :multiply #'* :divide #'/))
             for place = (forms-sparse-step-place step)
-            collect (list* (nth (nth place group) (forms-rates-states rates))
+            collect (list* (nth place names)
                            (rational (forms-sparse-step-pivot step))
                            (rational (cdr (assoc place (nth place doubles)))))))))
 

@@ -81,7 +81,14 @@
           do (setf (aref right i) element))
     (unless constant
       (setf (forms-rates-guards rates)
-            (append (forms-rates-guards rates) (numerics-group-guards names rows steps))))))
+            (append (forms-rates-guards rates)
+                    (numerics-group-guards (numerics-guarded-names rates group) rows steps))))))
+
+(defun numerics-guarded-names (rates group)
+  "The states of GROUP; coordinates in place of their velocities."
+  (let ((n (forms-rates-split rates)))
+    (loop for i in group
+          collect (nth (if (and n (>= i n)) (- i n) i) (forms-rates-states rates)))))
 
 (defun numerics-symmetric-rows (rows names)
   "ROWS, or an error where they are not symmetric."
