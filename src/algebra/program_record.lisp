@@ -119,7 +119,7 @@
 (defun algebra-output-elements (value)
   (cond ((or (numberp value) (algebra-node-p value)) (list value))
         ((eq (car value) :list) (cdr value))
-        (t (apply #'append (cdr value)))))
+        (t (loop for row in (cdr value) append row))))
 
 (defun algebra-all-outputs (outputs)
   (loop for (nil . value) in outputs append (algebra-output-elements value)))

@@ -204,8 +204,7 @@
                        rows))
          (voltages (append (coerce (circuits-trial-voltages trial) 'list)
                            (mapcar (constantly 0) (cdr transformers)))))
-    (list (circuits-in-span (apply #'mapcar #'list (mapcar (lambda (row) (nthcdr count row)) rows))
-                            sums)
+    (list (circuits-in-span (forms-transposed (mapcar (lambda (row) (nthcdr count row)) rows)) sums)
           (circuits-in-span rows voltages))))
 
 (defun circuits-number-rows (trial rows length)

@@ -74,6 +74,7 @@
                                               (forms-canonical-motion-multipliers motion)
                                               constant))
          :guards (funcall (forms-dynamics-guards dynamics))
+         :inertia (forms-dynamics-inertia dynamics)
          :angles (forms-angles (kept (forms-task-q task)) elements))))))
 
 (defun forms-velocities-of-momenta (dynamics names)
@@ -175,6 +176,7 @@ FORCES alone."
            :cyclic (mapcar #'car constant)
            :guards (forms-put-in-guards (funcall (forms-dynamics-guards dynamics)) pairs)
            :split (length (kept (forms-task-q task)))
+           :inertia (forms-dynamics-inertia dynamics)
            :angles (forms-angles (kept (forms-task-q task)) elements)))))))
 
 (defun forms-put-in-guards (guards pairs)

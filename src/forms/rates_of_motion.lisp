@@ -31,7 +31,7 @@
      :program *algebra-program*
      :states (forms-motion-states task) :pairs (forms-task-names task)
      :outputs (cons (cons '$rates (cons :list elements)) more)
-     :split (length velocities)
+     :split (length velocities) :inertia (forms-dynamics-inertia dynamics)
      :angles (forms-angles (forms-task-q task) elements))))
 
 (defun forms-solved-motion (dynamics)

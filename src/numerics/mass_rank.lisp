@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_exchange" "algebra/program_nodes" "forms/fixed" "forms/judge"
+  (core-require "algebra/program_exchange" "forms/fixed" "forms/judge"
                 "forms/program_judge" "forms/rates" "forms/sparse_elimination" "forms/value"
                 "numerics/rate_mass"))
 
@@ -53,7 +53,7 @@ the exchange of VALUES, for the message."
       (when right
         (make-numerics-kernel
          :group group :right right
-         :left (numerics-null-vectors (apply #'mapcar #'list dense)))))))
+         :left (numerics-null-vectors (forms-transposed dense)))))))
 
 (defun numerics-null-vectors (rows)
   "A basis of the x with ROWS x = 0."

@@ -108,7 +108,7 @@
 
 (defun numerics-kept-rows (groups rows)
   "ROWS of the GROUPS that stay, rows of the unit matrix for the others."
-  (let ((kept (apply #'append groups)))
+  (let ((kept (loop for group in groups append group)))
     (loop for row in rows
           for i from 0
           collect (if (member i kept) row (list (cons i 1))))))
