@@ -49,13 +49,13 @@ the exchange of VALUES, for the message."
 (defun numerics-kernel-of (group rows)
   "The numerics-kernel of GROUP with the numbers ROWS; nil where they are regular."
   (when (<= (length group) *numerics-dense-group*)
-    (let* ((dense (numerics-dense-rows rows)) (right (numerics-null-vectors dense)))
+    (let* ((dense (numerics-dense-rows rows)) (right (numerics-exact-null-vectors dense)))
       (when right
         (make-numerics-kernel
          :group group :right right
-         :left (numerics-null-vectors (forms-transposed dense)))))))
+         :left (numerics-exact-null-vectors (forms-transposed dense)))))))
 
-(defun numerics-null-vectors (rows)
+(defun numerics-exact-null-vectors (rows)
   "A basis of the x with ROWS x = 0."
   (let* ((n (length rows)) (echelon (coerce (values (forms-echelon rows n)) 'vector)))
     (loop for free below n

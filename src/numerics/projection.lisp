@@ -1,0 +1,115 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Back to the constraints after a step: with the coordinates q, the velocities v = q', the mass
+;;; matrix M, constraints Phi(t, q) = 0 and G v + b(t, q) = 0 (the rates of Phi, then those that are
+;;; linear in the velocities alone), the least change of q and then of v, measured by M, solves
+;;;     ( M  G^T ) (change)   (    0    )
+;;;     ( G   0  ) (force )  = (-residual)
+;;; twice, as Newton's method does (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II,
+;;; section VII.2). A constraint that follows from others is left out and named.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "numerics/problem" "numerics/bordered"))
+
+(defstruct numerics-constraints
+  "The states are (q, v), of equal length. VALUES and RATES give (moment x out): Phi, and G v + b;
+MATRIX gives G by rows, those of Phi first; MASS, nil for the identity, gives M by rows."
+  (size 0 :type fixnum)                                ; of q
+  (holonomic 0 :type fixnum)                           ; how many bind coordinates
+  (count 0 :type fixnum)                               ; all
+  values rates matrix mass
+  names                                                ; Maxima expressions
+  kept                                                 ; places of those that are not redundant
+  system                                               ; numerics-bordered
+  (rows (numerics-zeros 0) :type numerics-vector)      ; G
+  (weights (numerics-zeros 0) :type numerics-vector)   ; M
+  (residuals (numerics-zeros 0) :type numerics-vector)
+  (singular nil)                                       ; the moment at which a projection failed
+  (largest 0d0 :type double-float))                    ; residual after projections so far
+
+(defun numerics-new-constraints (holonomic names values rates matrix mass size)
+  "The constraints NAMES, of which the first HOLONOMIC bind coordinates, of SIZE coordinates."
+  (let* ((count (length names)) (weights (numerics-zeros (* size size))))
+    (dotimes (i size) (setf (aref weights (* i (1+ size))) 1d0))
+    (make-numerics-constraints
+     :size size :holonomic holonomic :count count :names names
+     :values values :rates rates :matrix matrix :mass mass
+     :kept (loop for i below count collect i)
+     :system (numerics-new-bordered (+ size count))
+     :rows (numerics-zeros (* size count)) :weights weights :residuals (numerics-zeros count))))
+
+(defun numerics-redundant-constraints (constraints moment x)
+  "The names of those that follow from the ones before them at X; they are left out from now on."
+  (let ((rows (numerics-constraints-rows constraints)))
+    (funcall (numerics-constraints-matrix constraints) moment x rows)
+    (setf (numerics-constraints-kept constraints)
+          (numerics-independent-rows rows (numerics-constraints-count constraints)
+                                     (numerics-constraints-size constraints)))
+    (loop for name in (numerics-constraints-names constraints)
+          for i from 0
+          unless (member i (numerics-constraints-kept constraints)) collect name)))
+
+;;; A step of Newton's method
+
+(defun numerics-kept-coordinates (constraints)
+  "Those kept of the constraints of coordinates."
+  (remove-if (lambda (i) (>= i (numerics-constraints-holonomic constraints)))
+             (numerics-constraints-kept constraints)))
+
+(defun numerics-change-states (constraints moment x kept start)
+  "Changes the states from the place START on so that the residuals KEPT vanish; nil where the system
+is singular."
+  (let ((system (numerics-constraints-system constraints)) (size (numerics-constraints-size constraints))
+        (rows (numerics-constraints-rows constraints)) (residuals (numerics-constraints-residuals constraints)))
+    (funcall (numerics-constraints-matrix constraints) moment x rows)
+    (numerics-set-bordered system size (numerics-constraints-weights constraints) rows kept)
+    (loop for i in kept
+          for place from size
+          do (setf (aref (numerics-bordered-right system) place) (- (aref residuals i))))
+    (let ((changes (numerics-solve-bordered system)))
+      (when changes
+        (dotimes (j size t) (incf (aref x (+ start j)) (aref changes j)))))))
+
+(defun numerics-residuals (constraints function moment x kept)
+  "The largest of the residuals KEPT, which FUNCTION gives."
+  (let ((residuals (numerics-constraints-residuals constraints)))
+    (funcall function moment x residuals)
+    (loop for i in kept maximize (abs (aref residuals i)))))
+
+(defun numerics-newton-twice (constraints function moment x kept start)
+  "Two steps of Newton's method; the largest residual after them, or nil where they failed."
+  (if (null kept)
+      0d0
+      (loop repeat 2
+            do (numerics-residuals constraints function moment x kept)
+            unless (numerics-change-states constraints moment x kept start)
+              do (return nil)
+            finally (return (numerics-residuals constraints function moment x kept)))))
+
+(defun numerics-project (constraints moment x)
+  "Brings the state X back to CONSTRAINTS, in place; the largest residual that is left, or nil where
+they are dependent there."
+  (let ((mass (numerics-constraints-mass constraints)))
+    (when mass (funcall mass moment x (numerics-constraints-weights constraints)))
+    (let* ((places (numerics-newton-twice
+                    constraints (numerics-constraints-values constraints) moment x
+                    (numerics-kept-coordinates constraints) 0))
+           (speeds (and places
+                        (numerics-newton-twice
+                         constraints (numerics-constraints-rates constraints) moment x
+                         (numerics-constraints-kept constraints)
+                         (numerics-constraints-size constraints)))))
+      (and speeds (max places speeds)))))
+
+(defun numerics-projection-part (constraints)
+  "A part of an observer: projects the state after each step, keeps the largest residual, and stops
+where the constraints are dependent."
+  (lambda (step)
+    (let ((left (numerics-project constraints (numerics-step-to step) (numerics-step-after step))))
+      (cond (left (setf (numerics-constraints-largest constraints)
+                        (max left (numerics-constraints-largest constraints)))
+                  :changed)
+            (t (setf (numerics-constraints-singular constraints)
+                     (copy-seq (numerics-step-to step)))
+               :stop)))))

@@ -1,0 +1,101 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What methods with steps of their own choice share: the scales of the norm, the time that is left,
+;;; the smallest step, and the first one. The first step is Hairer's (E. Hairer, S. P. Norsett, G.
+;;; Wanner, Solving Ordinary Differential Equations I, section II.4), made independent of the unit of
+;;; time, and guarded where a start at rest tells little: it grows from a short trial there, and its
+;;; own estimate of the error decides whether it stands.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "numerics/problem"))
+
+(declaim (inline numerics-scale numerics-time-left numerics-smallest-step))
+
+(defun numerics-scale (before after scale)
+  "What the error of a state is measured against; never 0."
+  (declare (double-float before after scale))
+  (+ (max (abs before) (abs after)) scale least-positive-normalized-double-float))
+
+(defun numerics-time-left (controls moment)
+  (declare (type numerics-vector moment))
+  (- (- (numerics-controls-end controls) (aref moment 0)) (aref moment 1)))
+
+(defun numerics-smallest-step (moment)
+  "No step is shorter: the last places of the two parts of MOMENT."
+  (declare (type numerics-vector moment))
+  (max 1d-290 (* 1d-31 (abs (aref moment 0)))))
+
+(defun numerics-full-scales (controls size)
+  "The scales of all SIZE states; 1 where the controls have none."
+  (let ((scales (numerics-controls-scales controls)))
+    (if (= (length scales) size)
+        scales
+        (make-array size :element-type 'double-float :initial-element 1d0))))
+
+(defun numerics-finite-vector-p (vector)
+  (declare (type numerics-vector vector) (optimize speed))
+  (let ((sum 0d0))
+    (declare (double-float sum))
+    (dotimes (i (length vector)) (incf sum (* 0d0 (aref vector i))))
+    (= sum 0d0)))
+
+;;; The first step
+
+(defun numerics-scaled-size (difference state scales)
+  "max |d_i|/(|x_i| + s_i)"
+  (declare (type numerics-vector difference state scales))
+  (let ((largest 0d0))
+    (dotimes (i (length state) largest)
+      (setq largest (max largest (/ (abs (aref difference i))
+                                    (numerics-scale (aref state i) 0d0 (aref scales i))))))))
+
+(defun numerics-trial-slope (problem moment state slope step)
+  "The slope after STEP along SLOPE, and that step: a shorter one where the slope is not finite."
+  (let ((later (copy-seq moment)) (point (copy-seq state)) (out (numerics-zeros (length state))))
+    (loop repeat 40
+          do (replace later moment)
+             (numerics-advance later step)
+             (map-into point (lambda (x k) (+ x (* step k))) state slope)
+             (funcall (numerics-problem-rates problem) later point out)
+          until (numerics-finite-vector-p out)
+          do (setq step (/ step 10)))
+    (values out step)))
+
+(defun numerics-trial-step (size speed span)
+  "A step that moves the state by a hundredth of its SIZE, or of a thousandth of its scale."
+  (let ((longest (* 1d-4 span)) (way (* 0.01d0 (max size 1d-3))))
+    (if (> (* longest speed) way) (/ way speed) longest)))
+
+(defun numerics-step-by-order (speed bend trial goal order)
+  "The step whose error is GOAL for a method of ORDER, where SPEED and BEND are the sizes of x' and
+x'': at most 100 times the TRIAL that found them."
+  (let* ((longest (* 100 trial)) (root (expt goal (/ 1d0 order)))
+         (turning (max speed (sqrt bend)))     ; 1/time in which the state moves by its scale
+         (changing (min (/ trial) (/ bend (max speed least-positive-normalized-double-float)))))
+    (flet ((limited (rate share)               ; goal = share*(rate*step)^order
+             (if (> (* longest rate) (* root share))
+                 (/ (* root share) rate)
+                 longest)))
+      (min (limited turning 1d0)
+           (if (> speed 0)
+               (limited changing (expt (/ changing speed) (/ 1d0 order)))
+               longest)))))
+
+(defun numerics-first-step (problem controls moment state slope order)
+  "The first step, signed, for a method of ORDER whose error estimate then judges it."
+  (let* ((left (numerics-time-left controls moment)) (span (abs left))
+         (scales (numerics-full-scales controls (length state)))
+         (speed (numerics-scaled-size slope state scales))
+         (trial (numerics-trial-step (numerics-scaled-size state state scales) speed span)))
+    (multiple-value-bind (later trial)
+        (numerics-trial-slope problem moment state slope (* (signum left) trial))
+      (incf (numerics-counts-rates (numerics-controls-counts controls)))
+      (let ((bend (/ (numerics-scaled-size (map 'numerics-vector #'- later slope) state scales)
+                     (abs trial))))
+        (* (signum left)
+           (min span (or (numerics-controls-largest-step controls) span)
+                (if (numerics-finite-p bend)
+                    (numerics-step-by-order speed bend (abs trial)
+                                            (* 0.01d0 (numerics-controls-relative controls)) order)
+                    (abs trial))))))))
