@@ -9,7 +9,7 @@
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "forms/agreement"
                 "forms/fixed" "forms/program_judge" "forms/rates"
-                "forms/value" "numerics/mass_rank"
+                "forms/value" "numerics/mass_index"
                 "numerics/rate_mass"))
 
 ;;; Values.
@@ -165,7 +165,7 @@ sight."
 M as far as it goes; and whether M is constant."
   (let ((new (numerics-exchanged-rates rates pairs)))
     (numerics-check-exchange rates new pairs)
-    (values (numerics-checked-mass (numerics-settled-rates new solved) rates pairs)
+    (values (numerics-checked-index (numerics-settled-rates new solved) rates pairs)
             (numerics-constant-mass-p new))))
 
 (defun numerics-operations-without (rates solved)
