@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/elements" "circuits/graph" "forms/agreement" "forms/fixed" "forms/judge"
+  (core-require "circuits/elements" "circuits/graph" "circuits/laws" "circuits/rates"
+                "circuits/tree" "forms/agreement" "forms/fixed" "forms/judge"
                 "forms/program_judge" "forms/value"))
 
 (defstruct circuits-trial

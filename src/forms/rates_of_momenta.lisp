@@ -110,7 +110,7 @@ FORCES alone."
              collect (loop for bond in bonds
                            collect (forms-program-product row (forms-bond-row bond))))
        (mapcar #'algebra-program-negate (algebra-program-rates values rates))
-       "the constraints depend on each other: their multipliers do not follow from the equations"))))
+       *forms-dependent-constraints*))))
 
 (defun forms-input-rates (names elements)
   (mapcar (lambda (name element) (cons (algebra-program-input name) element)) names elements))

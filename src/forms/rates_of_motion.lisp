@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "forms/dynamics" "forms/equations_as_program"
-                "forms/program_judge" "forms/rates"))
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/dynamics"
+                "forms/equations_as_program" "forms/program_judge" "forms/rates"))
 
 (defun forms-task-names (task)
   "((inside . outside) ..) of the velocities."

@@ -39,34 +39,33 @@
   "A basis of the x with ROWS x = 0."
   (let* ((n (length rows)) (echelon (coerce (values (forms-echelon rows n)) 'vector)))
     (loop for free below n
-          unless (aref echelon free)
-            collect (let ((x (make-list n :initial-element 0)))
-                      (setf (nth free x) (forms-fixed 1))
-                      (loop for i from (1- free) downto 0
-                            for row = (aref echelon i)
-                            do (when row
-                                 (setf (nth i x)
-                                       (round (ash (- (forms-fixed-dot (rest row) (nthcdr (1+ i) x)))
-                                                   forms-digits)
-                                              (first row)))))
-                      x))))
+          unless (aref echelon free) collect (numerics-exact-null-vector echelon free n))))
+
+(defun numerics-exact-null-vector (echelon free n)
+  "That of which the place FREE is 1."
+  (let ((x (make-list n :initial-element 0)))
+    (setf (nth free x) (forms-fixed 1))
+    (loop for i from (1- free) downto 0
+          for row = (aref echelon i)
+          for known = (and row (forms-fixed-dot (rest row) (nthcdr (1+ i) x)))
+          do (when row (setf (nth i x) (round (ash (- known) forms-digits) (first row)))))
+    x))
 
 ;;; Pivots of a regular group, in double-float numbers.
 
 (defun numerics-number-guards (names rows)
-  "(name pivot . whole) of the regular ROWS of NAMES; nil where they are not symmetric."
+  "(name pivot . whole) of the regular and symmetric ROWS of NAMES."
   (let ((doubles (loop for row in rows
                        collect (loop for (j . x) in row
                                      collect (cons j (coerce (/ x (ash 1 forms-digits))
                                                              'double-float))))))
-    (when (numerics-symmetric-p rows)
-      (loop for step in (forms-sparse-factors
-                         doubles (constantly 1d0)
-                         (make-forms-arithmetic :subtract #'- :multiply #'* :divide #'/))
-            for place = (forms-sparse-step-place step)
-            collect (list* (nth place names)
-                           (rational (forms-sparse-step-pivot step))
-                           (rational (cdr (assoc place (nth place doubles)))))))))
+    (loop for step in (forms-sparse-factors
+                       doubles (constantly 1d0)
+                       (make-forms-arithmetic :subtract #'- :multiply #'* :divide #'/))
+          for place = (forms-sparse-step-place step)
+          collect (list* (nth place names)
+                         (rational (forms-sparse-step-pivot step))
+                         (rational (cdr (assoc place (nth place doubles))))))))
 
 (defun numerics-symmetric-p (rows)
   (loop for row in rows

@@ -69,9 +69,8 @@
          (names (numerics-guarded-names rates group))
          (stays (if singular (not (eq solved t)) (and constant (cdr group) (not solved)))))
     (when (and singular (not stays)) (numerics-fault-group names))
-    (numerics-guard-group rates
-                          (cond (singular '())
-                                ((and numbers (cdr group)) (numerics-number-guards names numbers))))
+    (when (and numbers (cdr group) (not singular))
+      (numerics-guard-group rates (numerics-constant-guards names rows numbers)))
     (unless stays
       (let ((steps (numerics-solve-group names group rows right)))
         (unless constant (numerics-guard-group rates (numerics-group-guards names rows steps))))
@@ -79,6 +78,15 @@
 
 (defun numerics-guard-group (rates guards)
   (setf (forms-rates-guards rates) (append (forms-rates-guards rates) guards)))
+
+(defparameter *numerics-exact-group* 8 "States of a group whose pivots are found exactly.")
+
+(defun numerics-constant-guards (names rows numbers)
+  "Guards of a constant group with ROWS, NUMBERS being their values."
+  (cond ((not (numerics-symmetric-p numbers)) '())
+        ((<= (length names) *numerics-exact-group*)
+         (numerics-group-guards names rows (forms-sparse-factors rows (constantly 1))))
+        (t (numerics-number-guards names numbers))))
 
 (defun numerics-fault-group (names)
   (core-error "the matrix of ~{~a~^, ~} is singular: the rates do not follow from the equations"
@@ -107,7 +115,8 @@
         for i from 0
         do (loop for (j . element) in row
                  unless (eql element (cdr (assoc i (nth j rows))))
-                   do (core-error "the matrix of ~{~a~^, ~} is not symmetric; leave solved = true out"
+                   do (core-error "the matrix of ~{~a~^, ~} is not symmetric; leave solved = true ~
+                                   out"
                                   (mapcar (lambda (x) (core-words (list x))) names))))
   rows)
 

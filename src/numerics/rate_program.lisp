@@ -7,7 +7,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "forms/agreement"
+                "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
                 "forms/fixed" "forms/program_judge" "forms/rates"
                 "forms/value" "numerics/mass_index"
                 "numerics/rate_mass"))
