@@ -8,8 +8,8 @@
 
 (core-public "RateProgram"
   :forms '(("lagrangian" "Lagrangian" "coordinates") ("equations" "equations"))
-  :options '("values" "rayleigh" "forces" "constraints" "nonholonomic" "laws" "solved" "function" "cyclic"
-             "momenta" "variables")
+  :options '("values" "rayleigh" "forces" "constraints" "nonholonomic" "laws" "solved" "function"
+             "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
 (core-rule "RateProgram" :any "numerics/rate_program" "numerics_rate_program" "rates"
   *numerics-values* '("solved" nil))
@@ -23,7 +23,8 @@
   '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("step" 0))
 
 (core-public "Simulate"
-  :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time") ("equations" "equations" "start" "time"))
+  :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
+           ("equations" "equations" "start" "time"))
   :trailing '("start" "time")
   :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "step" "rayleigh"
              "forces" "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")

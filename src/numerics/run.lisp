@@ -9,14 +9,14 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "forms/rates" "numerics/events" "numerics/native"
-                "numerics/observers" "numerics/problem" "numerics/program" "numerics/rates_problem"
-                "numerics/routine" "numerics/run_options"))
+                "numerics/observers" "numerics/problem" "numerics/program" "numerics/projection" "numerics/rates_problem" "numerics/routine"
+                "numerics/run_options" "numerics/constrained"))
 
 (defstruct numerics-simulation
   rates values wishes program problem controls      ; VALUES: ((name . element) ..)
   (moment (numerics-zeros 2) :type numerics-vector) ; the start
   (state (numerics-zeros 0) :type numerics-vector)
-  rows events guards outcome
+  rows events guards constraints outcome
   lost                                              ; (coordinate share) of a pivot that was lost
   (seconds 0d0))                                    ; of the method alone
 
@@ -59,9 +59,10 @@ element)."
                                                        :jacobian nil))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
-            (numerics-simulation-rows run) (numerics-wished-rows run from to)
-            (numerics-simulation-events run) (numerics-wished-events run))
+            (numerics-simulation-constraints run) (numerics-constraints-of rates program))
       (numerics-check-start run)
+      (setf (numerics-simulation-rows run) (numerics-wished-rows run from to)
+            (numerics-simulation-events run) (numerics-wished-events run))
       run)))
 
 (defun numerics-start-vector (rates start)
@@ -95,7 +96,13 @@ element)."
 
 (defun numerics-wished-rows (run from to)
   (numerics-new-rows (numerics-read-points (numerics-wishes-points (numerics-simulation-wishes run)) from to)
-                     (numerics-simulation-moment run) (numerics-simulation-state run) nil))
+                     (numerics-simulation-moment run) (numerics-simulation-state run)
+                     (numerics-back-to-constraints run)))
+
+(defun numerics-back-to-constraints (run)
+  "The function (moment x) that brings a state between two steps back to the constraints, or nil."
+  (let ((constraints (numerics-simulation-constraints run)))
+    (and constraints (lambda (moment x) (numerics-project constraints moment x)))))
 
 (defun numerics-wished-events (run)
   "What looks for the events, each an expression or an equation; nil for none."
@@ -105,7 +112,8 @@ element)."
       (numerics-new-events
        (numerics-expression-routine run expressions)
        (length (numerics-simulation-state run))
-       (mapcar (constantly 0) expressions) (mapcar (constantly stop) expressions) nil))))
+       (mapcar (constantly 0) expressions) (mapcar (constantly stop) expressions)
+       (numerics-back-to-constraints run)))))
 
 (defun numerics-event-expressions (wishes)
   (let ((events (numerics-wishes-events wishes)))
@@ -132,6 +140,9 @@ element)."
 
 (defun numerics-check-start (run)
   (numerics-check-pivots run (numerics-simulation-moment run) (numerics-simulation-state run))
+  (when (numerics-simulation-constraints run)
+    (numerics-check-constraints (numerics-simulation-constraints run)
+                                (numerics-simulation-moment run) (numerics-simulation-state run)))
   (let ((rates (numerics-zeros (length (numerics-simulation-state run)))))
     (numerics-with-masked-traps
       (funcall (numerics-problem-rates (numerics-simulation-problem run))
