@@ -208,6 +208,13 @@ and whether more than a fiftieth of them was singular; none for KLU where it is 
       (prog1 (string-downcase (symbol-name (numerics-solver-kind solver)))
         (numerics-release-solver solver)))))
 
+(defun $linear_remark (rows columns)
+  "What is said of the system of a grid without KLU."
+  (let* ((*numerics-klu* nil) (*linear-seed* 5))
+    (or (numerics-solver-remark
+         (numerics-make-solver (* rows columns) (linear-grid rows columns) nil))
+        "")))
+
 (defun $linear_full (n)
   "A system of N rows that only sparse elimination can do, without that."
   (let ((*numerics-klu* nil))

@@ -34,14 +34,13 @@
           (t :dense))))
 
 (defun numerics-solver-remark (solver)
-  "A sentence where the choice would have been KLU, which is not there; or nil."
-  (when (and (numerics-large-and-sparse-p (numerics-solver-pattern solver))
-             (null (numerics-find-klu)))
-    (format nil "the systems of ~d equations are solved ~:[by full~;within a band of ~d, by~] ~
-                 elimination; with SBCL and the library KLU (package libklu1 or libklu2) it may be ~
-                 faster"
-            (numerics-solver-size solver) (eq (numerics-solver-kind solver) :banded)
-            (+ 1 (numerics-solver-lower solver) (numerics-solver-upper solver)))))
+  "A sentence where KLU, which is not there, would take less; or nil."
+  (let ((width (+ 1 (numerics-solver-lower solver) (numerics-solver-upper solver))))
+    (when (and (numerics-large-and-sparse-p (numerics-solver-pattern solver)) (> width 20)
+               (null (numerics-find-klu)))
+      (format nil "the systems of ~d equations are solved ~:[by full~;within a band of ~d, by~] ~
+                   elimination; SBCL with the library KLU (package libklu1 or libklu2) is faster"
+              (numerics-solver-size solver) (eq (numerics-solver-kind solver) :banded) width))))
 
 (defun numerics-make-solver (n pattern mass &key complex kind)
   "PATTERN of the Jacobian, nil for a full one; MASS a numerics-matrix, nil for the identity; KIND
