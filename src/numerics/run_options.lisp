@@ -111,24 +111,27 @@ methods with a fixed one, or 0."
 
 (defun numerics-velocity-p (name) (and (consp name) (eq (caar name) '%derivative)))
 
-(defun numerics-read-start (start names required)
-  "The list of exact start values of NAMES from the equations START; of REQUIRED names each must be
-given, the others are 0."
-  (let ((given (numerics-items start)))
-    (dolist (equation given)
-      (unless (and (consp equation) (eq (caar equation) 'mequal))
-        (core-error "the start is a list such as [theta = 1, 'diff(theta,t) = 0], found ~a"
-                    (core-words (list start))))
-      (unless (member (second equation) names :test #'alike1)
-        (numerics-refuse-start-name (second equation) names)))
-    (mapcar (lambda (name)
-              (let ((equation (find name given :key #'second :test #'alike1)))
-                (cond (equation (third equation))
-                      ((member name required :test #'alike1)
-                       (core-error "the start value of ~a is missing; add ~:*~a = .. to the start"
-                                   (core-words (list name))))
-                      (t 0))))
-            names)))
+(defun numerics-read-start (start names default)
+  "The list of exact start values of NAMES from the equations START; DEFAULT, a function of the name,
+gives those that are not named."
+  (dolist (equation (numerics-items start))
+    (unless (and (consp equation) (eq (caar equation) 'mequal))
+      (core-error "the start is a list such as [theta = 1, 'diff(theta,t) = 0], found ~a"
+                  (core-words (list start)))))
+  (loop for name in names
+        for equation = (find name (numerics-items start) :key #'second :test #'alike1)
+        collect (if equation (third equation) (funcall default name))))
+
+(defun numerics-check-start-names (start names quadratures)
+  "An error for a name in START that is none of NAMES; velocities of coordinates that are left to
+QUADRATURES follow from their momenta."
+  (dolist (equation (numerics-items start))
+    (let ((name (second equation)))
+      (cond ((member name names :test #'alike1))
+            ((member name quadratures :test #'alike1)
+             (core-warn "~a follows from its momentum; its start value is not used"
+                        (core-words (list name))))
+            (t (numerics-refuse-start-name name names))))))
 
 (defun numerics-refuse-start-name (name names)
   (let* ((spelled (core-words (list name)))

@@ -183,7 +183,9 @@
   "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say."
   (with-algebra-program
     (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
-           (run (numerics-new-run (numerics-run-rates rates pairs nil) pairs start span wishes))
+           (rates (numerics-with-quadratures (numerics-run-rates rates pairs nil) start))
+           (run (numerics-new-run rates pairs (numerics-start-values rates start values) span
+                                  wishes))
            (stop (numerics-carry-out run)))
       (numerics-tell-end run stop)
       (core-report "run" (numerics-report run))
