@@ -16,6 +16,16 @@ methods with a fixed one, or 0."
 
 ;;; Numbers
 
+(defun numerics-short-number (x)
+  "X to six digits, as a person writes it."
+  (flet ((trimmed (text) (string-right-trim "." (string-right-trim "0" text))))
+    (if (or (= x 0d0) (<= 1d-3 (abs x) 1d6))
+        (trimmed (format nil "~,6f" x))
+        (let* ((text (string-downcase (format nil "~,5e" x)))
+               (place (position-if #'alpha-char-p text)))
+          (concatenate 'string (trimmed (subseq text 0 place)) "e"
+                       (string-left-trim "+" (subseq text (1+ place))))))))
+
 (defun numerics-double (e what)
   "The double-float number next to the Maxima constant E; WHAT it is, for the message."
   (let ((value (car (core-attempt (lambda () ($float e))))))
@@ -87,10 +97,10 @@ methods with a fixed one, or 0."
   (cond ((< relative *numerics-least-tolerance*)
          (core-error "a tolerance of ~a is below 1e-13, what double-float numbers can keep; for ~
                       more digits give digits = 30"
-                     (core-words (list relative))))
+                     (numerics-short-number relative)))
         ((> relative 1d-1)
          (core-error "a tolerance of ~a means nothing; give one from 1e-13 to 0.1"
-                     (core-words (list relative))))))
+                     (numerics-short-number relative)))))
 
 (defun numerics-absolute-tolerances (absolute relative names)
   "The list of a_i from what was given, nil, a number or a list of numbers."

@@ -105,14 +105,6 @@
                     (:most-steps "the most steps that were allowed are made")
                     (:singular "the matrix of the implicit steps is singular")))))
 
-(defun numerics-short-number (x)
-  "X to six digits, as a person writes it."
-  (let ((size (abs x)))
-    (string-right-trim
-     "." (if (or (= x 0d0) (<= 1d-3 size 1d6))
-             (string-right-trim "0" (format nil "~,6f" x))
-             (format nil "~,5e" x)))))
-
 (defun numerics-place-text (run)
   "Where the RUN ended: time and state."
   (let ((outcome (numerics-simulation-outcome run)))
