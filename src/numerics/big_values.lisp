@@ -48,7 +48,7 @@ of DIGITS that ELEMENTS then have."
             (loop while fixed do (compute (pop fixed)))
             (mapc #'compute moving)
             (loop for element in elements
-                  collect (numerics-rounded (value element) bits))))))))
+                  collect (numerics-big-rounded (value element) bits))))))))
 
 (defun numerics-fixed-nodes (nodes)
   "Those of NODES that no input moves, and the others."
@@ -63,7 +63,7 @@ of DIGITS that ELEMENTS then have."
       (flet ((moves-p (node) (gethash (algebra-node-index node) moving)))
         (values (remove-if #'moves-p nodes) (remove-if-not #'moves-p nodes))))))
 
-(defun numerics-rounded (number bits)
+(defun numerics-big-rounded (number bits)
   "The bigfloat of BITS for the mantissa and exponent NUMBER."
   (let ((x (bcons number)))
     (with-numerics-bits bits (bigfloatp x))))

@@ -160,7 +160,7 @@ they are kept."
         (:multiply `(* ,x ,(text y)))
         (:divide `(numerics-quotient ,x ,(text y)))
         (:negate `(- ,x))
-        (:root `(numerics-root ,x))
+        (:root `(numerics-square-root ,x))
         (:absolute `(abs ,x))
         (:sign `(numerics-sign ,x))))))
 
@@ -266,5 +266,5 @@ they are kept."
   (if (= (length parts) 1)
       (aref parts 0)
       (lambda (x w out)
-        (declare (simple-vector parts) (optimize speed))
+        (declare (type simple-vector parts) (optimize speed))
         (loop for part across parts do (funcall (the function part) x w out)))))

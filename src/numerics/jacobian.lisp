@@ -64,10 +64,10 @@
   (let ((sum '()))
     (when (some slopes-of (algebra-node-parts node))
       (loop for (part . derivative) in (algebra-partial-derivatives node)
-            do (setq sum (numerics-slope-sum sum derivative (funcall slopes-of part)))))
+            do (setq sum (numerics-slopes-plus sum derivative (funcall slopes-of part)))))
     sum))
 
-(defun numerics-slope-sum (a factor b)
+(defun numerics-slopes-plus (a factor b)
   "The slopes A + FACTOR*B."
   (let ((sum '()))
     (flet ((note (j element) (unless (eql element 0) (push (cons j element) sum)))

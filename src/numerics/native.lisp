@@ -108,15 +108,33 @@
   #-sbcl `(setf (aref ,vector ,place) ,value))
 
 (defmacro numerics-sign (x)
-  `(let ((x ,x)) (cond ((> x 0d0) 1d0) ((< x 0d0) -1d0) (t x))))
+  #+sbcl `(let ((x ,x)) (cond ((> x 0d0) 1d0) ((< x 0d0) -1d0) (t x)))
+  #-sbcl `(numerics-plain-sign ,x))
 
-(defmacro numerics-root (x)
+(defmacro numerics-square-root (x)
   #+sbcl `(sb-kernel::%sqrt ,x)
-  #-sbcl `(let ((x ,x)) (if (>= x 0d0) (sqrt x) (numerics-not-a-number))))
+  #-sbcl `(numerics-plain-root ,x))
 
 (defmacro numerics-quotient (x y)
   #+sbcl `(/ ,x ,y)
-  #-sbcl `(let ((x ,x) (y ,y)) (if (= y 0d0) (* x (numerics-infinity)) (/ x y))))
+  #-sbcl `(numerics-plain-quotient ,x ,y))
+
+;;; As functions: in a `let' one of these Lisps takes NaN to be greater than 0.
+
+#-sbcl
+(defun numerics-plain-sign (x)
+  (declare (double-float x))
+  (cond ((> x 0d0) 1d0) ((< x 0d0) -1d0) (t x)))
+
+#-sbcl
+(defun numerics-plain-root (x)
+  (declare (double-float x))
+  (if (>= x 0d0) (sqrt x) (numerics-not-a-number)))
+
+#-sbcl
+(defun numerics-plain-quotient (x y)
+  (declare (double-float x y))
+  (if (= y 0d0) (* x (numerics-infinity)) (/ x y)))
 
 (defmacro numerics-elementary (operation &rest arguments)
   "The function OPERATION, a keyword, of one or two numbers."
@@ -129,30 +147,41 @@
 #-sbcl
 (defun numerics-plain-elementary (operation x &optional (y 1d0))
   (flet ((finite-p (x) (<= (abs x) most-positive-double-float)))
-    (let ((value (cond ((and (finite-p x) (finite-p y)) (numerics-plain-value operation x y))
-                       ((and (eq operation :exponential) (< x 0d0)) 0d0)
-                       ((and (member operation '(:exponential :logarithm)) (> x 0d0)) x))))
+    (let ((value (cond ((/= x x) x)
+                       ((and (finite-p x) (finite-p y)) (numerics-plain-value operation x y))
+                       ((finite-p y) (numerics-plain-limit operation x)))))
       (if (floatp value) value (numerics-not-a-number)))))
+
+#-sbcl
+(defun numerics-plain-limit (operation x)
+  "The value at the infinite X, nil for none."
+  (case operation
+    (:exponential (if (> x 0d0) x 0d0))
+    (:logarithm (and (> x 0d0) x))
+    (:arctangent (cl:atan (if (> x 0d0) 1d300 -1d300)))
+    (:hyperbolic-sine x)
+    (:hyperbolic-cosine (abs x))
+    (:hyperbolic-tangent (if (> x 0d0) 1d0 -1d0))))
 
 #-sbcl
 (defun numerics-plain-value (operation x y)
   "The value for finite X and Y; where there is none another thing than a float."
   (ecase operation
-    (:sine (sin x))
-    (:cosine (cos x))
-    (:exponential (exp x))
-    (:logarithm (cond ((> x 0d0) (log x)) ((= x 0d0) (- (numerics-infinity)))))
-    (:arcsine (and (<= -1d0 x 1d0) (asin x)))
-    (:arccosine (and (<= -1d0 x 1d0) (acos x)))
-    (:arctangent (atan x))
-    (:hyperbolic-sine (sinh x))
-    (:hyperbolic-cosine (cosh x))
-    (:hyperbolic-tangent (cond ((> x 20d0) 1d0) ((< x -20d0) -1d0) (t (tanh x))))
-    (:polar-angle (if (and (= x 0d0) (= y 0d0)) 0d0 (atan x y)))
+    (:sine (cl:sin x))
+    (:cosine (cl:cos x))
+    (:exponential (cl:exp x))
+    (:logarithm (cond ((> x 0d0) (cl:log x)) ((= x 0d0) (- (numerics-infinity)))))
+    (:arcsine (and (<= -1d0 x 1d0) (cl:asin x)))
+    (:arccosine (and (<= -1d0 x 1d0) (cl:acos x)))
+    (:arctangent (cl:atan x))
+    (:hyperbolic-sine (cl:sinh x))
+    (:hyperbolic-cosine (cl:cosh x))
+    (:hyperbolic-tangent (cond ((> x 20d0) 1d0) ((< x -20d0) -1d0) (t (cl:tanh x))))
+    (:polar-angle (if (and (= x 0d0) (= y 0d0)) 0d0 (cl:atan x y)))
     (:power (cond ((= y 0d0) 1d0)
                   ((= x 0d0) (if (> y 0d0) 0d0 (numerics-infinity)))
-                  ((> x 0d0) (expt x y))
-                  ((= y (ffloor y)) (expt x (floor y)))))))
+                  ((> x 0d0) (cl:expt x y))
+                  ((= y (ffloor y)) (cl:expt x (floor y)))))))
 
 (defmacro numerics-set-turn (vector place x)
   "Sine and cosine of X into VECTOR at PLACE and after it."

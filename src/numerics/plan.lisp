@@ -82,8 +82,11 @@
           (t (list :none)))))
 
 (defun numerics-bigfloat-rational (x)
+  "X as a rational number; far beyond double-float numbers a number that is so, too."
   ;; ((bigfloat simp precision) mantissa exponent) is mantissa*2^(exponent - precision)
-  (* (second x) (expt 2 (- (third x) (car (last (first x)))))))
+  (cond ((> (abs (third x)) 5000)
+         (* (signum (second x)) (expt 2 (if (plusp (third x)) 5000 -5000))))
+        (t (* (second x) (expt 2 (- (third x) (car (last (first x)))))))))
 
 (defun numerics-constant (plan element)
   "The rational value of ELEMENT where it is constant, :none, or nil."

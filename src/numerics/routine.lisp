@@ -38,7 +38,7 @@
   (let ((calls *numerics-calls-worth-compiling*))
     (declare (fixnum calls))
     (multiple-value-bind (first second) (numerics-machine plan)
-      (declare (function first))
+      (declare (type function first))
       (values
        (lambda (time x out)
          (when (and (>= calls 0) (< (decf calls) 0))
