@@ -36,8 +36,9 @@
     (let* ((states (numerics-program-states program))
            (seeds (loop for nil in states collect (algebra-program-input (gensym)))))
       (numerics-new-plan program
-                         (loop for element in (algebra-program-rates (numerics-program-rates program)
-                                                                     (mapcar #'cons states seeds))
+                         (loop for element in (algebra-program-rates
+                                               (numerics-program-rates program)
+                                               (mapcar #'cons states seeds))
                                for k from 0 collect (cons k element))
                          n seeds))))
 
@@ -64,7 +65,8 @@
   "(i j) -> rational, for the states that stand in a rate by themselves, with a constant factor."
   (let* ((rates (numerics-program-rates program)) (nodes (algebra-live-nodes rates))
          (forms (numerics-forms nodes (lambda (e) (and (rationalp e) e))))
-         (sets (make-hash-table)) (places (make-hash-table)) (slopes (make-hash-table :test #'equal)))
+         (sets (make-hash-table)) (places (make-hash-table))
+         (slopes (make-hash-table :test #'equal)))
     (numerics-spread-dependences program nodes sets)
     (loop for state in (numerics-program-states program)
           for j from 0 do (setf (gethash (algebra-node-index state) places) j))

@@ -91,5 +91,6 @@
          (pattern (numerics-pattern-of (length rows) entries))
          (outputs (loop for (nil nil element) in entries
                         for place from 0 collect (cons place element))))
-    (values (numerics-routine-of-plan (numerics-new-plan program outputs (length entries)) how calls)
+    (values (numerics-routine-of-plan (numerics-new-plan program outputs (length entries))
+                                      how calls)
             pattern)))

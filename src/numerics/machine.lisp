@@ -72,7 +72,8 @@
 (defun numerics-layout-place (layout element)
   (let ((value (numerics-constant (numerics-layout-plan layout) element)))
     (if value
-        (let ((value (numerics-constant-double value)) (constants (numerics-layout-constants layout)))
+        (let ((value (numerics-constant-double value))
+              (constants (numerics-layout-constants layout)))
           (or (gethash value constants)
               (setf (gethash value constants) (numerics-layout-take layout 1))))
         (numerics-layout-slot layout element))))

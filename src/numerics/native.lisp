@@ -1,5 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a Lisp has beyond its standard, and what stands for it elsewhere: nothing else here names it.
+;;; What a Lisp has beyond its standard, and what stands for it elsewhere; no other part of this
+;;; room names it.
 ;;;     (numerics-with-masked-traps ..)   floats give infinity and NaN inside, never an error
 ;;;     (numerics-load-library '("libklu.so.1" "libklu.so.2")) -> the name that was found, or nil
 ;;;     (numerics-foreign-call "klu_solve" :int (:address symbolic) (:int n) (:vector b)) calls C
@@ -88,8 +89,8 @@
   #-sbcl
   `(core-error "~a: this Lisp calls no functions of C" ,name))
 
-;;; Elementary functions of double-float numbers, by the names of operations in programs: where they
-;;; have no value they give NaN, and no error nor a complex number. The sign of NaN is NaN.
+;;; Elementary functions of double-float numbers, by the names of operations in programs: where
+;;; they have no value they give NaN, and no error nor a complex number. The sign of NaN is NaN.
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *numerics-c-names*
@@ -199,8 +200,8 @@
      (numerics-set-element ,vector ,place (numerics-elementary :sine x))
      (numerics-set-element ,vector (1+ ,place) (numerics-elementary :cosine x))))
 
-;;; The same as functions of places of one vector, for programs that are compiled: a call of these is
-;;; compiled ten times as fast as a call of C.
+;;; The same as functions of places of one vector, for programs that are compiled: a call of these
+;;; is compiled ten times as fast as a call of C.
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defun numerics-put-name (operation)
@@ -211,7 +212,8 @@
   `(progn
      ,@(loop for (operation) in *numerics-c-names*
              for two = (member operation '(:power :polar-angle))
-             collect `(defun ,(numerics-put-name operation) (vector place from ,@(and two '(other)))
+             collect `(defun ,(numerics-put-name operation)
+                          (vector place from ,@(and two '(other)))
                         (declare (type (simple-array double-float (*)) vector)
                                  (type (unsigned-byte 32) place from ,@(and two '(other)))
                                  (optimize speed (safety 0)))

@@ -130,13 +130,12 @@
 
 (defun numerics-settle-nodes (plan rows others)
   (let ((nodes (remove-if (lambda (node)
-                            (or (algebra-input-p node)
-                                (gethash (algebra-node-index node) (numerics-plan-constants plan))))
+                            (or (algebra-input-p node) (numerics-constant plan node)))
                           (numerics-moving-nodes plan rows others)))
         (late (make-hash-table)))
     (flet ((late-p (node)
              (or (gethash (algebra-node-index node) late)
-                 (eq (car (gethash (algebra-node-index node) (numerics-plan-inputs plan))) :seed))))
+                 (eq (car (numerics-input-place plan node)) :seed))))
       (dolist (node nodes)
         (when (some #'late-p (algebra-node-parts node))
           (setf (gethash (algebra-node-index node) late) t)))
@@ -153,7 +152,8 @@
 (defun numerics-turn (plan node)
   "Sine and cosine of the angle of NODE in their order, nil where the other one is not needed."
   (and (member (algebra-node-operation node) '(:sine :cosine))
-       (let ((turn (gethash (algebra-node-index (algebra-node-left node)) (numerics-plan-turns plan))))
+       (let ((turn (gethash (algebra-node-index (algebra-node-left node))
+                            (numerics-plan-turns plan))))
          (and (rest turn) turn))))
 
 (defun numerics-input-place (plan node)

@@ -9,8 +9,8 @@
   (core-require "numerics/linear_rows" "numerics/plan" "numerics/problem"))
 
 (defun numerics-entries (plan work slot first second)
-  "Two functions. FIRST and SECOND, functions (x work out), compute in the vector WORK, SLOT gives the
-place of a node in it."
+  "Two functions. FIRST and SECOND, functions (x work out), compute in the vector WORK, SLOT gives
+the place of a node in it."
   (let ((after (numerics-after plan slot)) (states (numerics-plan-states plan))
         (length (numerics-plan-length plan)))
     (if (numerics-plan-seeded plan)
