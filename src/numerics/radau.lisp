@@ -8,10 +8,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/native" "numerics/step_control"
-                "numerics/linear_solver" "numerics/radau_coefficients" "numerics/radau_run"
-                "numerics/radau_start" "numerics/radau_newton" "numerics/radau_control"
-                "numerics/radau_stiffness"))
+  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/native"
+                "numerics/problem" "numerics/radau_coefficients" "numerics/radau_control"
+                "numerics/radau_newton" "numerics/radau_run" "numerics/radau_start"
+                "numerics/radau_stiffness" "numerics/step_control"))
 
 (defun numerics-radau (problem controls moment state observer)
   "Integrates PROBLEM from STATE at MOMENT; an outcome."

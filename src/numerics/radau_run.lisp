@@ -5,8 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/step_control" "numerics/sparse"
-                "numerics/linear_solver"))
+  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/problem"
+                "numerics/sparse" "numerics/step_control"))
 
 (defmacro numerics-define-radau-run (vectors numbers &rest fields)
   "The structure, its VECTORS of the length of the state, NUMBERS, and other FIELDS."

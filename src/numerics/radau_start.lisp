@@ -8,9 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/step_control" "numerics/sparse"
-                "numerics/null_space" "numerics/linear_solver" "numerics/radau_coefficients"
-                "numerics/radau_run" "numerics/radau_stiffness"))
+  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/null_space"
+                "numerics/problem" "numerics/radau_coefficients" "numerics/radau_run"
+                "numerics/radau_stiffness" "numerics/sparse" "numerics/step_control"))
 
 (defun numerics-radau-begin (run)
   "The status in which RUN ends before its first step, or nil."

@@ -8,9 +8,11 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/events" "numerics/native"
-                "numerics/observers" "numerics/problem" "numerics/program" "numerics/projection" "numerics/rates_problem" "numerics/routine"
-                "numerics/run_options" "numerics/constrained"))
+                "algebra/program_nodes" "algebra/program_record" "forms/dynamics"
+                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/events"
+                "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
+                "numerics/projection" "numerics/rates_problem" "numerics/routine"
+                "numerics/run_options"))
 
 (defstruct numerics-simulation
   rates values wishes program problem controls      ; VALUES: ((name . element) ..)

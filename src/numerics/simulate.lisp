@@ -7,8 +7,9 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates" "numerics/events"
-                "numerics/native" "numerics/observers" "numerics/problem" "numerics/projection" "numerics/rate_program"
-                "numerics/run" "numerics/run_options"))
+                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/problem"
+                "numerics/projection" "numerics/rate_program" "numerics/run"
+                "numerics/run_options"))
 
 ;;; Methods
 
