@@ -7,7 +7,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "forms/rates" "numerics/native" "numerics/problem"
-                "numerics/program" "numerics/projection" "numerics/routine"))
+                "numerics/program" "numerics/projection" "numerics/routine" "numerics/run_options"))
 
 (defparameter *numerics-largest-start-residual* 1d-6
   "Off a constraint by more than this a start is refused, by less it is brought back.")
@@ -34,9 +34,9 @@
     (loop for residual across residuals
           for name in (numerics-constraints-names constraints)
           do (unless (<= (abs residual) *numerics-largest-start-residual*)
-               (core-error "the ~:[velocities of the start violate~;start is off~] ~a: it is ~,3e ~
+               (core-error "the ~:[velocities of the start violate~;start is off~] ~a: it is ~a ~
                             there in place of 0"
-                           (eq what :places) name residual)))))
+                           (eq what :places) name (numerics-short-number residual))))))
 
 (defun numerics-check-constraints (constraints moment state)
   "An error where STATE violates the CONSTRAINTS or these depend on each other; else it is brought

@@ -7,8 +7,9 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates" "numerics/events"
-                "numerics/native" "numerics/observers" "numerics/problem" "numerics/projection" "numerics/rate_program"
-                "numerics/run" "numerics/run_options"))
+                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/problem"
+                "numerics/projection" "numerics/rate_program" "numerics/run"
+                "numerics/run_options"))
 
 ;;; Methods
 
@@ -105,14 +106,6 @@
                     (:most-steps "the most steps that were allowed are made")
                     (:singular "the matrix of the implicit steps is singular")))))
 
-(defun numerics-short-number (x)
-  "X to six digits, as a person writes it."
-  (let ((size (abs x)))
-    (string-right-trim
-     "." (if (or (= x 0d0) (<= 1d-3 size 1d6))
-             (string-right-trim "0" (format nil "~,6f" x))
-             (format nil "~,5e" x)))))
-
 (defun numerics-place-text (run)
   "Where the RUN ended: time and state."
   (let ((outcome (numerics-simulation-outcome run)))
@@ -183,7 +176,9 @@
   "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say."
   (with-algebra-program
     (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
-           (run (numerics-new-run (numerics-run-rates rates pairs nil) pairs start span wishes))
+           (rates (numerics-with-quadratures (numerics-run-rates rates pairs nil) start))
+           (run (numerics-new-run rates pairs (numerics-start-values rates start values) span
+                                  wishes))
            (stop (numerics-carry-out run)))
       (numerics-tell-end run stop)
       (core-report "run" (numerics-report run))
