@@ -163,6 +163,52 @@ and whether more than a fiftieth of them was singular; none for KLU where it is 
         (when (< (linear-rank (linear-case-matrix case)) (linear-case-n case))
           (incf singular))))))
 
+;;; Units: row i times 2^a_i changes nothing, and column j times 2^b_j makes nothing singular.
+
+(defun linear-in-units (values pattern rows columns)
+  (map 'vector (lambda (value i j) (* value (expt 2 (+ (aref rows i) (aref columns j)))))
+       values (numerics-pattern-rows pattern) (numerics-column-numbers pattern)))
+
+(defun linear-case-in-units (case rows columns)
+  (let* ((new (copy-linear-case case)) (mass (or (linear-case-mass case)
+                                                 (numerics-identity (linear-case-n case))))
+         (pattern (numerics-matrix-pattern mass)))
+    (setf (linear-case-entries new) (linear-in-units (linear-case-entries case)
+                                                     (linear-case-pattern case) rows columns)
+          (linear-case-mass new)
+          (make-numerics-matrix
+           :pattern pattern
+           :values (linear-doubles (linear-in-units (map 'vector #'rational
+                                                         (numerics-matrix-values mass))
+                                                    pattern rows columns))))
+    new))
+
+(defun linear-solution-or-column (case complex kind right)
+  "The solution, or the number of the column where CASE is singular."
+  (let ((solver (linear-solver case complex kind)))
+    (if (numerics-with-masked-traps
+          (numerics-factor solver (linear-doubles (linear-case-entries case))))
+        (numerics-solver-singular-column solver)
+        (linear-solved solver right))))
+
+(defun $linear_units (count largest complex kind seed)
+  "[how many of COUNT cases are solved otherwise in other units of their equations, how many are
+singular or not in those of their unknowns too]"
+  (let ((*linear-seed* seed) (kind (linear-kind kind)) (others 0) (singular 0))
+    (flet ((exponents (n) (coerce (loop repeat n collect (- (linear-random 161) 80)) 'vector)))
+      (dotimes (k count (list '(mlist simp) others singular))
+        (let* ((n (1+ (linear-random largest))) (case (linear-new-case n 50 complex))
+               (rows (exponents n)) (columns (exponents n))
+               (right (coerce (loop repeat n collect (linear-eighth)) 'vector))
+               (none (make-array n :initial-element 0)))
+          (flet ((solution (columns)
+                   (linear-solution-or-column
+                    (linear-case-in-units case rows columns) complex kind
+                    (map 'vector (lambda (x a) (* x (expt 2 a))) right rows))))
+            (let ((one (linear-solution-or-column case complex kind right)))
+              (unless (equalp one (solution none)) (incf others))
+              (unless (eq (numberp one) (numberp (solution columns))) (incf singular)))))))))
+
 ;;; Orders and choices.
 
 (defun linear-pattern-of-edges (n edges)

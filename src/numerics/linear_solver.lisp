@@ -12,7 +12,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/problem" "numerics/linear_solver_matrix" "numerics/linear_solver_order"
-                "numerics/linear_solver_elimination" "numerics/linear_solver_klu"
+                "numerics/linear_solver_scales" "numerics/linear_solver_elimination"
+                "numerics/linear_solver_klu"
                 "numerics/null_space"))
 
 (defparameter *numerics-most-without-klu* 200
@@ -91,9 +92,8 @@ nil where it is chosen here."
             (vector-of (if (numerics-solver-complex solver) entries 0))
             (numerics-solver-rows solver) (moved (numerics-pattern-rows whole))
             (numerics-solver-columns solver) (moved (numerics-column-numbers whole))
-            (numerics-solver-row-sizes solver) (vector-of n)
-            (numerics-solver-column-sizes solver) (vector-of n)
-            (numerics-solver-row-order solver) (numerics-index-zeros n)
+            (numerics-solver-row-scales solver) (vector-of n)
+            (numerics-solver-column-scales solver) (vector-of n)
             (numerics-solver-pivots solver) (numerics-index-zeros n)
             (numerics-solver-work solver) (vector-of n)
             (numerics-solver-work-imaginary solver) (vector-of n)))
@@ -122,12 +122,21 @@ nil where it is chosen here."
   "Factors of shift*M - J; true where this is singular."
   (numerics-assemble solver jacobian)
   (cond ((eq (numerics-solver-kind solver) :klu) (numerics-factor-by-klu solver))
-        (t (numerics-measure-entries solver)
-           (cond ((numerics-solver-complex solver) (numerics-eliminate-complex solver))
-                 ((numerics-eliminate solver) (numerics-find-singular-row solver jacobian))))))
+        (t (numerics-unit-scales solver)
+           (and (numerics-eliminate-measured solver)
+                (progn (numerics-assemble solver jacobian)
+                       (numerics-balance-columns solver)
+                       (numerics-eliminate-measured solver))
+                (numerics-find-singular-row solver jacobian)))))
+
+(defun numerics-eliminate-measured (solver)
+  (numerics-measure-entries solver)
+  (if (numerics-solver-complex solver)
+      (numerics-eliminate-complex solver)
+      (numerics-eliminate solver)))
 
 (defun numerics-find-singular-row (solver jacobian)
-  "Notes a row that follows from the others. True."
+  "Notes a row of a real matrix that follows from the others. True."
   (numerics-assemble solver jacobian)
   (let* ((places (numerics-solver-places solver)) (values (numerics-zeros (length places)))
          (real (numerics-solver-real solver)))
@@ -137,7 +146,8 @@ nil where it is chosen here."
                                                      :values values)
                                nil))))
       (setf (numerics-solver-singular-row solver)
-            (and combination (car (numerics-largest-entry combination))))
+            (and combination (not (numerics-solver-complex solver))
+                 (car (numerics-largest-entry combination))))
       t)))
 
 (defun numerics-orientation (solver)

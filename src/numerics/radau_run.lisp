@@ -42,7 +42,8 @@
  (moment (numerics-zeros 2) :type (simple-array double-float (*)))
  (seen (make-numerics-step))     ; the step as the observer sees it
  (later (numerics-zeros 2) :type (simple-array double-float (*))) ; the moment of a stage
- (entries (numerics-zeros 0) :type (simple-array double-float (*))) ; of the Jacobian
+ pattern               ; of the Jacobian, and its entries
+ (entries (numerics-zeros 0) :type (simple-array double-float (*)))
  single pair           ; the solvers of the real and of the complex system
  mass                  ; nil for the identity
  (jacobian :none)      ; :none, :old or :fresh: of the state at the beginning
@@ -70,14 +71,13 @@
 
 (defun numerics-new-radau (problem controls moment state)
   (let* ((n (numerics-problem-size problem)) (mass (numerics-problem-mass problem))
-         (pattern (numerics-problem-pattern problem))
+         (pattern (or (numerics-problem-pattern problem) (numerics-full-pattern n)))
          (run (make-numerics-radau-run
                :problem problem :controls controls :counts (numerics-controls-counts controls)
                :moment (copy-seq moment) :mass mass :before (copy-seq state)
                :after (copy-seq state) :scales (numerics-full-scales controls n)
-               :entries (numerics-zeros (if pattern
-                                            (length (numerics-pattern-rows pattern))
-                                            (* n n)))
+               :pattern pattern
+               :entries (numerics-zeros (length (numerics-pattern-rows pattern)))
                :single (numerics-make-solver n pattern mass)
                :pair (numerics-make-solver n pattern mass :complex t)
                :newton-goal (numerics-newton-goal (numerics-controls-relative controls)))))
@@ -103,9 +103,6 @@
   "A change that takes this share of the tolerance ends the iteration. It is less than in radau5.f:
 what is left of it has the same sign for many steps, and adds up in what changes slowly."
   (max (/ 2.2d-17 relative) (min 0.03d0 (expt relative 0.6d0))))
-
-(defun numerics-radau-pattern (problem)
-  (or (numerics-problem-pattern problem) (numerics-full-pattern (numerics-problem-size problem))))
 
 (defun numerics-release-radau (run)
   (numerics-release-solver (numerics-radau-run-single run))

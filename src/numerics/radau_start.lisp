@@ -82,13 +82,13 @@ they do not fix it."
 
 (defun numerics-radau-algebraic-matrix (run part)
   "The entries n_i J r_k, by columns."
-  (numerics-with-radau (run problem entries r1 r2)
+  (numerics-with-radau (run pattern entries r1 r2)
     (let* ((equations (numerics-algebraic-equations part)) (m (length equations))
            (matrix (numerics-zeros (* m m))) (unit (numerics-zeros 1)) (place -1))
       (setf (aref unit 0) 1d0)
       (dolist (direction (numerics-algebraic-directions part) matrix)
         (numerics-spread (list direction) unit r1)
-        (numerics-multiply (numerics-radau-pattern problem) entries r1 r2)
+        (numerics-multiply pattern entries r1 r2)
         (dolist (equation equations)
           (setf (aref matrix (incf place)) (numerics-combined equation r2)))))))
 

@@ -24,9 +24,9 @@ which explicit methods cannot take back."
 
 (defun numerics-radau-follow-radius (run)
   "The estimate of the spectral radius of a new Jacobian."
-  (numerics-with-radau (run problem direction entries r1)
+  (numerics-with-radau (run pattern direction entries r1)
     (when direction
-      (let ((pattern (numerics-radau-pattern problem)) (growth 0d0))
+      (let ((growth 0d0))
         (loop repeat *numerics-power-iterations*
               do (numerics-multiply pattern entries direction r1)
                  (incf growth (numerics-normalise r1 direction)))
