@@ -8,8 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "numerics/compile" "numerics/machine" "numerics/plan"
-                "numerics/program"))
+  (core-require "numerics/compile" "numerics/machine" "numerics/plan"))
 
 (defparameter *numerics-calls-worth-compiling* 40000)
 
@@ -26,7 +25,7 @@
   "Two functions, (time x out), and (seed out) for plans with seeds."
   #-sbcl (progn how calls (numerics-machine plan))
   #+sbcl
-  (cond ((zerop (numerics-plan-count plan)) (numerics-machine plan))
+  (cond ((not (numerics-compilable-p plan)) (numerics-machine plan))
         ((or (eq how :compiled)
              (and (eq how :auto) (>= calls *numerics-calls-worth-compiling*)))
          (numerics-compiled plan))
