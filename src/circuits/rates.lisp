@@ -11,7 +11,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "circuits/elements"
-                "circuits/laws" "circuits/rates_judge" "forms/rates" "forms/sparse_elimination"))
+                "circuits/laws" "forms/sparse_elimination"))
 
 (defstruct circuits-run
   network sign branches ; the branches as a vector, that of number k at k - 1
@@ -143,13 +143,11 @@
 (defun circuits-set-meshes (run)
   (let ((numbers (circuits-numbers run '$mesh_tree)))
     (when numbers
-      (let ((voltages (circuits-mesh-voltages run numbers)))
-        (loop for k in numbers
-              for voltage in voltages
-              do (circuits-set-voltage run k voltage)
-                 (circuits-set-current run k
-                                       (algebra-program-divide
-                                        voltage (circuits-value run (circuits-run-branch run k)))))))))
+      (loop for k in numbers
+            for voltage in (circuits-mesh-voltages run numbers)
+            for resistance = (circuits-value run (circuits-run-branch run k))
+            do (circuits-set-voltage run k voltage)
+               (circuits-set-current run k (algebra-program-divide voltage resistance))))))
 
 (defun circuits-mesh-voltages (run numbers)
   (let ((places (make-hash-table)))

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/elements" "circuits/graph" "forms/agreement" "forms/fixed" "forms/judge"
+  (core-require "circuits/elements" "circuits/graph" "circuits/laws" "circuits/rates"
+                "circuits/tree" "forms/agreement" "forms/fixed" "forms/judge"
                 "forms/program_judge" "forms/value"))
 
 (defstruct circuits-trial
@@ -204,8 +205,7 @@
                        rows))
          (voltages (append (coerce (circuits-trial-voltages trial) 'list)
                            (mapcar (constantly 0) (cdr transformers)))))
-    (list (circuits-in-span (apply #'mapcar #'list (mapcar (lambda (row) (nthcdr count row)) rows))
-                            sums)
+    (list (circuits-in-span (forms-transposed (mapcar (lambda (row) (nthcdr count row)) rows)) sums)
           (circuits-in-span rows voltages))))
 
 (defun circuits-number-rows (trial rows length)

@@ -8,8 +8,9 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_exchange"
-                "algebra/program_from_expressions" "forms/dynamics" "forms/equations_as_program"
-                "forms/fixed" "forms/judge" "forms/momenta_judge" "forms/program_judge"
+                "algebra/program_from_expressions" "algebra/program_nodes" "forms/actions"
+                "forms/dynamics" "forms/equations_as_program"
+                "forms/fixed" "forms/judge" "forms/momenta" "forms/momenta_judge" "forms/program_judge"
                 "forms/rates" "forms/rates_of_momenta" "forms/rates_of_motion"))
 
 (core-record forms-wanted-form
@@ -19,17 +20,20 @@ coordinates to be left out; ROTORS: coordinates that are left out in any form."
   form names taken (given *forms-none*) (cyclic '$auto) (rotors *forms-none*))
 
 (defun forms-rates-in-form (dynamics wanted)
-  (let ((form (forms-wanted-form-form wanted)) (rotors (cdr (forms-wanted-form-rotors wanted))))
-    (cond ((eq form '$hamilton)
-           (forms-check-momentum-names dynamics wanted (forms-task-q (forms-dynamics-task dynamics)))
-           (forms-with-given-momenta
-            (forms-hamilton-rates dynamics (cdr (forms-wanted-form-names wanted))
-                                  (forms-named-momenta dynamics wanted rotors))
-            wanted))
-          ((or rotors (eq form '$routh))
-           (forms-routh-of-cyclic dynamics wanted
-                                  (if (eq form '$routh) (forms-cyclic-names dynamics wanted) rotors)))
-          (t (forms-rates-of-dynamics dynamics)))))
+  (let ((rotors (cdr (forms-wanted-form-rotors wanted))))
+    (case (forms-wanted-form-form wanted)
+      ($hamilton (forms-hamilton-of-wanted dynamics wanted rotors))
+      ($routh (forms-routh-of-cyclic dynamics wanted (forms-cyclic-names dynamics wanted)))
+      (t (if rotors
+             (forms-routh-of-cyclic dynamics wanted rotors)
+             (forms-rates-of-dynamics dynamics))))))
+
+(defun forms-hamilton-of-wanted (dynamics wanted rotors)
+  (forms-check-momentum-names dynamics wanted (forms-task-q (forms-dynamics-task dynamics)))
+  (forms-with-given-momenta
+   (forms-hamilton-rates dynamics (cdr (forms-wanted-form-names wanted))
+                         (forms-named-momenta dynamics wanted rotors))
+   wanted))
 
 (defun forms-routh-of-cyclic (dynamics wanted cyclic)
   (let ((constant (forms-named-momenta dynamics wanted cyclic)))

@@ -18,6 +18,7 @@
   solve   ; a function of forces: the accelerations that these alone give
   mass    ; nil, or the rows of a constant M
   right   ; with M: the forces of M q'' = f
+  inertia ; elements that depend on the coordinates or the time where M does
   terms   ; a function that gives the forms-program-terms, derivatives of L
   guards  ; a function that gives the list of (coordinate pivot . whole)
   judge)  ; a forms-program-judge
@@ -29,7 +30,7 @@
     (some (lambda (name) (member name inputs :test #'alike1)) names)))
 
 (defun forms-constant-rows-p (rows task)
-  (not (forms-depends-p (apply #'append rows) (cons '$t (forms-task-q task)))))
+  (not (forms-depends-p (loop for row in rows append row) (cons '$t (forms-task-q task)))))
 
 (defun forms-dynamics-of-function (system task)
   "Of the SYSTEM in plain symbols, by derivatives on programs."
@@ -41,7 +42,8 @@
         (flet ((solve (forces) (forms-program-solution-by factors forces)))
           (make-forms-dynamics
            :task task :bonds bonds :free (solve right) :solve #'solve
-           :mass (and constant rows) :right right :terms (constantly terms)
+           :mass (and constant rows) :right right :inertia (loop for row in rows append row)
+           :terms (constantly terms)
            :guards (lambda () (forms-pivot-guards (forms-task-q task) factors
                                                   (forms-diagonal rows)))
            :judge (forms-judge-of-expressions system)))))))

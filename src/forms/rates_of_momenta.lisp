@@ -74,6 +74,7 @@
                                               (forms-canonical-motion-multipliers motion)
                                               constant))
          :guards (funcall (forms-dynamics-guards dynamics))
+         :inertia (forms-dynamics-inertia dynamics)
          :angles (forms-angles (kept (forms-task-q task)) elements))))))
 
 (defun forms-velocities-of-momenta (dynamics names)
@@ -109,7 +110,7 @@ FORCES alone."
              collect (loop for bond in bonds
                            collect (forms-program-product row (forms-bond-row bond))))
        (mapcar #'algebra-program-negate (algebra-program-rates values rates))
-       "the constraints depend on each other: their multipliers do not follow from the equations"))))
+       *forms-dependent-constraints*))))
 
 (defun forms-input-rates (names elements)
   (mapcar (lambda (name element) (cons (algebra-program-input name) element)) names elements))
@@ -175,6 +176,7 @@ FORCES alone."
            :cyclic (mapcar #'car constant)
            :guards (forms-put-in-guards (funcall (forms-dynamics-guards dynamics)) pairs)
            :split (length (kept (forms-task-q task)))
+           :inertia (forms-dynamics-inertia dynamics)
            :angles (forms-angles (kept (forms-task-q task)) elements)))))))
 
 (defun forms-put-in-guards (guards pairs)

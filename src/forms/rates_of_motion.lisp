@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "forms/dynamics" "forms/equations_as_program"
-                "forms/program_judge" "forms/rates"))
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/dynamics"
+                "forms/equations_as_program" "forms/program_judge" "forms/rates"))
 
 (defun forms-task-names (task)
   "((inside . outside) ..) of the velocities."
@@ -31,7 +31,7 @@
      :program *algebra-program*
      :states (forms-motion-states task) :pairs (forms-task-names task)
      :outputs (cons (cons '$rates (cons :list elements)) more)
-     :split (length velocities)
+     :split (length velocities) :inertia (forms-dynamics-inertia dynamics)
      :angles (forms-angles (forms-task-q task) elements))))
 
 (defun forms-solved-motion (dynamics)

@@ -17,21 +17,16 @@
   (let* ((tree (linmodel-program-tree scene task actions))
          (solver (linmodel-solver tree))
          (bonds (forms-task-bonds task))
-         (constant (and (null bonds) (linmodel-constant-mass-p scene task))))
+         (energy (linmodel-program-kinetic (linmodel-program-arithmetic) scene task))
+         (constant (and (null bonds) (forms-constant-rows-p (list (list energy)) task))))
     (make-forms-dynamics
-     :task task :bonds bonds
+     :task task :bonds bonds :inertia (list energy)
      :free (linmodel-solver-free solver) :solve (linmodel-solver-solve solver)
      :guards (linmodel-solver-guards solver)
      :mass (and constant (linmodel-tree-rows tree))
      :right (and constant (linmodel-right-sides tree))
      :terms (lambda () (linmodel-program-terms scene actions task))
      :judge (linmodel-program-judge scene actions (forms-task-v task)))))
-
-(defun linmodel-constant-mass-p (scene task)
-  "Whether neither coordinates nor the time occur in T."
-  (not (forms-depends-p
-        (list (linmodel-program-kinetic (linmodel-program-arithmetic) scene task))
-        (cons '$t (forms-task-q task)))))
 
 (defun linmodel-program-terms (scene actions task)
   (destructuring-bind (potential dissipation forces) (cdr actions)

@@ -1,14 +1,15 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The matrix M of M x' = X after the exchange of values, group by group of states that it joins. A
 ;;; state alone is divided by its entry; a group whose entries depend on the state is solved on the
-;;; program; a constant group stays in M, which is never inverted, and so does a state without an
-;;; entry: then M is singular, and its equation algebraic. See numerics-settled-rates first.
+;;; program; a constant group stays in M, which is never inverted, and so does what is singular,
+;;; such as a state without an entry: then equations are algebraic. See numerics-settled-rates
+;;; first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_nodes" "algebra/program_record"
-                "forms/rates" "forms/sparse_elimination"))
+                "forms/rates" "forms/sparse_elimination" "numerics/mass_rank"))
 
 ;;; Groups.
 
@@ -28,7 +29,7 @@
   "The ROWS of GROUP, their places counted in it."
   (loop for i in group
         collect (loop for (j . element) in (nth i rows)
-                      collect (cons (position j group) element))))
+                      unless (eql element 0) collect (cons (position j group) element))))
 
 (defun numerics-constant-p (elements states)
   "Whether ELEMENTS depend neither on STATES nor on the time."
@@ -38,7 +39,8 @@
 ;;; Each group.
 
 (defun numerics-settled-rates (rates solved)
-  "RATES with X divided by M as far as it goes; SOLVED: constant groups, too."
+  "RATES with X divided by M as far as it goes. SOLVED, of constant groups: nil, they stay in M;
+:regular, those that are singular; t, none, and a singular one is an error."
   (if (null (forms-rates-mass rates))
       rates
       (let* ((rows (forms-rates-mass rates)) (copy (copy-forms-rates rates)) (kept '())
@@ -60,28 +62,52 @@
 
 (defun numerics-settle-group (rates group rows right solved)
   "Divides the elements of GROUP in the vector RIGHT; nil where the group stays."
-  (let* ((elements (loop for row in rows append (mapcar #'cdr row)))
-         (constant (numerics-constant-p elements (forms-rates-states rates))))
-    (cond ((and (not solved) (every (lambda (element) (eql element 0)) elements)) nil)
-          ((or (null (cdr group)) solved (not constant))
-           (numerics-solve-group rates group rows right constant)
-           t))))
+  (let* ((constant (numerics-constant-p (loop for row in rows append (mapcar #'cdr row))
+                                        (forms-rates-states rates)))
+         (numbers (and constant (numerics-number-rows rows)))
+         (singular (or (every #'null rows) (and numbers (numerics-kernel-of group numbers))))
+         (names (numerics-guarded-names rates group))
+         (stays (if singular (not (eq solved t)) (and constant (cdr group) (not solved)))))
+    (when (and singular (not stays)) (numerics-fault-group names))
+    (when (and numbers (cdr group) (not singular))
+      (numerics-guard-group rates (numerics-constant-guards names rows numbers)))
+    (unless stays
+      (let ((steps (numerics-solve-group names group rows right)))
+        (unless constant (numerics-guard-group rates (numerics-group-guards names rows steps))))
+      t)))
 
-(defun numerics-solve-group (rates group rows right constant)
-  (let* ((names (mapcar (lambda (i) (nth i (forms-rates-states rates))) group))
-         (rows (numerics-symmetric-rows rows names))
-         (steps (forms-sparse-factors
-                 rows (lambda (place)
-                        (core-error "the matrix of ~{~a~^, ~} is singular: what moves ~a does not ~
-                                     follow from the equations"
-                                    (mapcar (lambda (x) (core-words (list x))) names)
-                                    (core-words (list (nth place names))))))))
+(defun numerics-guard-group (rates guards)
+  (setf (forms-rates-guards rates) (append (forms-rates-guards rates) guards)))
+
+(defparameter *numerics-exact-group* 8 "States of a group whose pivots are found exactly.")
+
+(defun numerics-constant-guards (names rows numbers)
+  "Guards of a constant group with ROWS, NUMBERS being their values."
+  (cond ((not (numerics-symmetric-p numbers)) '())
+        ((<= (length names) *numerics-exact-group*)
+         (numerics-group-guards names rows (forms-sparse-factors rows (constantly 1))))
+        (t (numerics-number-guards names numbers))))
+
+(defun numerics-fault-group (names)
+  (core-error "the matrix of ~{~a~^, ~} is singular: the rates do not follow from the equations"
+              (mapcar (lambda (x) (core-words (list x))) names)))
+
+(defun numerics-solve-group (names group rows right)
+  "The steps of the elimination by which the elements of GROUP in RIGHT are solved."
+  (let ((steps (forms-sparse-factors (numerics-symmetric-rows rows names)
+                                     (lambda (place)
+                                       (declare (ignore place))
+                                       (numerics-fault-group names)))))
     (loop for i in group
           for element in (forms-sparse-solution steps (mapcar (lambda (i) (aref right i)) group))
           do (setf (aref right i) element))
-    (unless constant
-      (setf (forms-rates-guards rates)
-            (append (forms-rates-guards rates) (numerics-group-guards names rows steps))))))
+    steps))
+
+(defun numerics-guarded-names (rates group)
+  "The states of GROUP; coordinates in place of their velocities."
+  (let ((n (forms-rates-split rates)))
+    (loop for i in group
+          collect (nth (if (and n (>= i n)) (- i n) i) (forms-rates-states rates)))))
 
 (defun numerics-symmetric-rows (rows names)
   "ROWS, or an error where they are not symmetric."
@@ -89,7 +115,8 @@
         for i from 0
         do (loop for (j . element) in row
                  unless (eql element (cdr (assoc i (nth j rows))))
-                   do (core-error "the matrix of ~{~a~^, ~} is not symmetric; leave solved = true out"
+                   do (core-error "the matrix of ~{~a~^, ~} is not symmetric; leave solved = true ~
+                                   out"
                                   (mapcar (lambda (x) (core-words (list x))) names))))
   rows)
 
@@ -101,7 +128,7 @@
 
 (defun numerics-kept-rows (groups rows)
   "ROWS of the GROUPS that stay, rows of the unit matrix for the others."
-  (let ((kept (apply #'append groups)))
+  (let ((kept (loop for group in groups append group)))
     (loop for row in rows
           for i from 0
           collect (if (member i kept) row (list (cons i 1))))))

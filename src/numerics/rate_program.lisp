@@ -7,8 +7,9 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "forms/agreement"
-                "forms/program_judge" "forms/rates" "forms/value" "numerics/mass_rank"
+                "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
+                "forms/fixed" "forms/program_judge" "forms/rates"
+                "forms/value" "numerics/mass_index"
                 "numerics/rate_mass"))
 
 ;;; Values.
@@ -52,32 +53,60 @@
         collect (cons inside (algebra-program-input outside))))
 
 (defun numerics-fault-division (denominator rates values)
-  (let ((guilty (algebra-vanishing-values denominator values (lambda (element) (eql element 0))))
+  "The error for a DENOMINATOR of RATES that vanishes with VALUES."
+  (let ((guilty (algebra-vanishing-values denominator values #'numerics-nought-p))
         (guard (find denominator (forms-rates-guards rates) :key #'second)))
-    (core-error "with ~{~a = ~a~^, ~} the program divides by zero~@[: the pivot of ~a in the mass ~
+    (core-error "~@[with ~{~a~^, ~} ~]the program divides by zero~@[: the pivot of ~a in the mass ~
                  matrix vanishes~]"
                 (loop for (name . element) in guilty
-                      append (list (core-words (list name)) (numerics-value-text element)))
+                      collect (format nil "~a = ~a" (core-words (list name))
+                                      (numerics-value-text element)))
                 (and guard (core-words (list (first guard)))))))
 
 (defun numerics-value-text (element)
   (if (numberp element) (core-words (list (algebra-maxima-rational element))) "its value"))
 
+(defun numerics-nought-p (element)
+  "Whether ELEMENT vanishes, at sight or at a random point."
+  (or (eql element 0)
+      (let ((value (first (catch 'forms-no-value
+                            (forms-program-values (list element) (forms-new-point t))))))
+        (and value (forms-negligible-p value)))))
+
 ;;; The check.
 
 (defun numerics-check-exchange (rates new values)
   "The values of NEW against those of RATES at a random point."
+  (let* ((point (numerics-point-with rates values))
+         (numbers (numerics-numbers (forms-rates-elements rates) point)))
+    (unless numbers (numerics-check-denominators rates values point))
+    (forms-verdict-of "values put in: against the program without them"
+                      (or (mapcar #'cons numbers
+                                  (numerics-numbers (forms-rates-elements new) point))
+                          '((nil)))
+                      point)))
+
+(defun numerics-numbers (elements point)
+  (catch 'forms-no-value (forms-program-values elements point)))
+
+(defun numerics-point-with (rates values)
+  "A random point where states have one value under both of their names, and parameters VALUES."
   (let ((point (forms-new-point t)))
     (loop for (inside . outside) in (forms-rates-pairs rates)
           do (forms-set-place inside (forms-variable-value outside point) point))
     (loop for (name . element) in values
           do (forms-set-place name (first (forms-program-values (list element) point)) point))
-    (flet ((numbers (rates)
-             (catch 'forms-no-value
-               (forms-program-values (forms-rates-elements rates) point))))
-      (forms-verdict-of "values put in: against the program without them"
-                        (or (mapcar #'cons (numbers rates) (numbers new)) '((nil)))
-                        point))))
+    point))
+
+(defun numerics-check-denominators (rates values point)
+  "An error for the first denominator of RATES that vanishes at the POINT with VALUES, though not at
+sight."
+  (dolist (node (algebra-live-nodes (forms-rates-elements rates)))
+    (when (eq (algebra-node-operation node) :divide)
+      (let ((value (first (numerics-numbers (list (algebra-node-right node)) point))))
+        (cond ((null value) (return nil))
+              ((forms-negligible-p value)
+               (numerics-fault-division (algebra-node-right node) rates values)))))))
 
 ;;; The record.
 
@@ -118,29 +147,45 @@
 
 (defun numerics-operations (rates)
   (count-if-not #'algebra-input-p
-                (algebra-live-nodes (algebra-all-outputs (forms-rates-outputs rates)))))
+                (algebra-live-nodes (numerics-right-sides rates))))
+
+(defun numerics-constant-mass-p (rates)
+  (let ((moving (if (forms-rates-split rates)
+                    (subseq (forms-rates-states rates) 0 (forms-rates-split rates))
+                    (forms-rates-states rates))))
+    (numerics-constant-p (append (forms-rates-inertia rates)
+                                 (loop for row in (forms-rates-mass rates)
+                                       append (mapcar #'cdr row)))
+                         moving)))
 
 ;;; Rates as a run takes them.
 
 (defun numerics-run-rates (rates pairs solved)
   "RATES in the current program with the values of PAIRS, ((name . element) ..), put in, divided by
-M as far as it goes."
+M as far as it goes; and whether M is constant."
   (let ((new (numerics-exchanged-rates rates pairs)))
     (numerics-check-exchange rates new pairs)
-    (numerics-checked-mass (numerics-settled-rates new solved) rates pairs)))
+    (values (numerics-checked-index (numerics-settled-rates new solved) rates pairs)
+            (numerics-constant-mass-p new))))
+
+(defun numerics-operations-without (rates solved)
+  "Operations of RATES without values."
+  (with-algebra-program
+    (numerics-operations (numerics-settled-rates (numerics-exchanged-rates rates '()) solved))))
 
 ;;; For Maxima.
 
 (defun $numerics_rate_program (rates values solved)
   "The record of RATES with VALUES, equations name = number."
   (with-algebra-program
-    (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
-           (new (numerics-run-rates rates pairs solved)))
-      (numerics-program-record
-       new
-       (list (algebra-field '$operations_before (numerics-operations rates))
-             (algebra-field '$operations_after (numerics-operations new))
-             (algebra-field '$zero
-                            (cons '(mlist simp)
-                                  (loop for (name . element) in pairs
-                                        when (eql element 0) collect name))))))))
+    (let ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates)))
+      (multiple-value-bind (new constant) (numerics-run-rates rates pairs solved)
+        (numerics-program-record
+         new
+         (list (algebra-field '$mass_constant constant)
+               (algebra-field '$operations_before (numerics-operations-without rates solved))
+               (algebra-field '$operations_after (numerics-operations new))
+               (algebra-field '$zero
+                              (cons '(mlist simp)
+                                    (loop for (name . element) in pairs
+                                          when (eql element 0) collect name)))))))))
