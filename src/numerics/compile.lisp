@@ -13,7 +13,8 @@
                 "numerics/linear_rows" "numerics/native"
                 "numerics/plan" "numerics/problem" "numerics/routine_entry"))
 
-(defparameter *numerics-part-length* 150 "Operations in one function.")
+(defparameter *numerics-part-length* 250
+  "Operations in one function: more are spilled, fewer are stored for other functions.")
 (defparameter *numerics-most-row-terms* 2000 "More terms of rows stay a product.")
 
 (defstruct numerics-code
@@ -66,12 +67,15 @@ that the second stage needs, those of its COPIES too."
         ((eq (first statement) :copy) (list (cddr statement)))
         ((eq (first statement) :row) (mapcar #'car (cdddr statement)))))
 
+(defun numerics-weight (statement)
+  (if (algebra-node-p statement) 1 (max 1 (length (numerics-operands statement)))))
+
 (defun numerics-cut (statements)
   "STATEMENTS as a list of parts."
   (loop while statements
         collect (loop with length = 0
                       while (and statements (< length *numerics-part-length*))
-                      do (incf length (max 1 (length (numerics-operands (first statements)))))
+                      do (incf length (numerics-weight (first statements)))
                       collect (pop statements))))
 
 ;;; Places in the work vector.
