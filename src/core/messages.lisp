@@ -18,11 +18,17 @@
 (defvar *core-warnings-now* '() "Warnings of what is being derived, given already or not.")
 
 (defun core-words (items)
-  "ITEMS, strings and Maxima expressions, as one string on one line."
-  (let (($display2d nil) ($stringdisp nil) ($lispdisp nil) ($linel 100000))
-    (apply #'concatenate 'string
-           (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string)))
-                   items))))
+  "ITEMS, strings and Maxima expressions, as one string on one line, the same in all versions of
+Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be written -(4*x).)"
+  (let (($display2d nil) ($stringdisp nil) ($lispdisp nil) ($linel 100000)
+        (bound (get 'mminus 'rbp)))
+    (unwind-protect
+         (progn
+           (setf (get 'mminus 'rbp) 100)
+           (apply #'concatenate 'string
+                  (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string)))
+                          items)))
+      (setf (get 'mminus 'rbp) bound))))
 
 (defun core-cut (text)
   "TEXT, cut after sixty letters."
