@@ -137,25 +137,48 @@
                   (not (search "core_require" line)))
           collect (subseq line 0 end)))
 
+;;; What core_require names, in either language
+
+(defun uses-quoted (text)
+  "What stands between quotes in TEXT, which has no comments."
+  (loop for begin = (position #\" text) then (position #\" text :start (1+ end))
+        while begin
+        for end = (position #\" text :start (1+ begin))
+        collect (subseq text (1+ begin) end)))
+
+(defun uses-required (text)
+  (loop for begin = (search "core_require" text) then (search "core_require" text :start2 end)
+        while begin
+        for end = (position #\) text :start begin)
+        append (uses-quoted (subseq text begin end))))
+
 ;;; Who uses what
 
-(defstruct uses-part name defined used declared)
+(defstruct uses-part name defined used declared required acts)
 
 (defun uses-read (part)
   (let ((file (uses-file part)))
     (if (search ".lisp" file)
         (let ((forms (uses-forms file)))
           (make-uses-part :name part :defined (uses-lisp-definitions forms)
-                          :used (uses-lisp-names forms) :declared (uses-lisp-declared forms)))
+                          :used (uses-lisp-names forms) :declared (uses-lisp-declared forms)
+                          :required (uses-required (substitute #\_ #\- (uses-text file)))
+                          :acts (uses-acts-p forms)))
         (multiple-value-bind (plain quoted) (uses-plain (uses-text file))
           (make-uses-part :name part :defined (uses-mac-definitions plain)
-                          :used (uses-words plain) :declared quoted)))))
+                          :used (uses-words plain) :declared quoted
+                          :required (uses-required (uses-text file)))))))
+
+(defvar *uses-known* nil "All parts, read once.")
+
+(defun uses-known ()
+  (or *uses-known* (setq *uses-known* (mapcar #'uses-read (uses-parts)))))
 
 (defun uses-room (part) (subseq part 0 (position #\/ part)))
 
 (defun uses-arrows ()
   "(user other (name ..)) for each part that uses names of another."
-  (let ((parts (mapcar #'uses-read (uses-parts))) (home (make-hash-table :test #'equal)) (arrows '()))
+  (let ((parts (uses-known)) (home (make-hash-table :test #'equal)) (arrows '()))
     (dolist (part parts)
       (dolist (name (uses-part-defined part)) (setf (gethash name home) (uses-part-name part))))
     (dolist (part parts (nreverse arrows))
@@ -177,6 +200,27 @@
                           (string= (uses-room (uses-part-name part)) "core")
                           (member other (uses-part-declared part) :test #'string=))
                  collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
+
+(defun uses-acts-p (forms)
+  "Whether a part does something by being loaded: gives a judge to another part, fills a register."
+  (find-if (lambda (form) (and (consp form) (member (car form) '(setq core-kind core-option)))) forms))
+
+(defun uses-needed-p (part other)
+  "Whether PART uses a name that the part called OTHER defines, or OTHER acts."
+  (let ((other (find other (uses-known) :key #'uses-part-name :test #'string=)))
+    (or (uses-part-acts other)
+        (intersection (uses-part-used part) (uses-part-defined other) :test #'string=))))
+
+(defun $uses_needless ()
+  "[[part, others], ..]: parts that a part declares by core_require and of which it uses no name.
+The core is left out: it reads its chapters for all."
+  (apply #'uses-list
+         (loop for part in (uses-known)
+               for needless = (unless (string= (uses-room (uses-part-name part)) "core")
+                                (remove-if (lambda (other) (uses-needed-p part other))
+                                           (uses-part-required part)))
+               when needless
+                 collect (uses-list (uses-part-name part) (apply #'uses-list needless)))))
 
 (defun uses-may-p (room other) (member other (core-rooms-used room) :test #'string=))
 
