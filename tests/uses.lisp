@@ -239,6 +239,14 @@ The core is left out: it reads its chapters for all."
                unless (uses-may-p (uses-room (uses-part-name part)) (uses-room other))
                  collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
 
+(defun $uses_shared_names ()
+  "Names that files of two rooms have; each room has a register."
+  (let ((names (loop for part in (uses-parts)
+                     collect (subseq part (1+ (position #\/ part))))))
+    (apply #'uses-list
+           (loop for (name . more) on (remove "register" names :test #'string=)
+                 when (member name more :test #'string=) collect name))))
+
 ;;; What nothing uses. A piece is a form of Lisp, or the lines from one definition of Maxima to the
 ;;; next: what a piece defines must stand in another one, as a name or as a text between quotes (so
 ;;; rules name functions), in a rule, a face or a tool.

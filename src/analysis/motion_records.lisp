@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The records of the analysis. A motion is what everything is asked about: the first
-;;; approximation, the structure of forces, stability. It is derived once, in motion.mac.
+;;; approximation, the structure of forces, stability. It is derived once, in given_solution.mac.
 
 (in-package :maxima)
 
