@@ -54,15 +54,27 @@
                    ((eval-when progn let flet labels macrolet) (uses-lisp-definitions (cddr form)))
                    (t (mapcar #'uses-symbol-name (definitions-of form)))))))
 
-(defun uses-record-names (form)
-  (destructuring-bind (name documentation &rest fields) (cdr form)
+(defvar *uses-fields* '() "(record . fields), of the records read so far.")
+
+(defun uses-record-fields (form)
+  "The fields of a record, those of the record that it adds to first, which is read before it."
+  (destructuring-bind (name-and-parent documentation &rest fields) (cdr form)
     (declare (ignore documentation))
-    (let ((fields (mapcar (lambda (field) (if (consp field) (car field) field)) fields))
-          (plain (substitute #\_ #\- (string-downcase name))))
-      (append (mapcar #'uses-symbol-name (definitions-of `(defstruct ,name ,@fields)))
-              (list plain (format nil "~a_with" plain))
-              (loop for field in fields
-                    collect (format nil "~a_~a" plain (substitute #\_ #\- (string-downcase field))))))))
+    (destructuring-bind (name &optional parent)
+        (if (consp name-and-parent) name-and-parent (list name-and-parent))
+      (let ((all (append (cdr (assoc parent *uses-fields*))
+                         (mapcar (lambda (field) (if (consp field) (car field) field)) fields))))
+        (push (cons name all) *uses-fields*)
+        all))))
+
+(defun uses-record-names (form)
+  (let* ((fields (uses-record-fields form))
+         (name (if (consp (second form)) (car (second form)) (second form)))
+         (plain (substitute #\_ #\- (string-downcase name))))
+    (append (mapcar #'uses-symbol-name (definitions-of `(defstruct ,name ,@fields)))
+            (list plain (format nil "~a_with" plain))
+            (loop for field in fields
+                  collect (format nil "~a_~a" plain (substitute #\_ #\- (string-downcase field)))))))
 
 (defun uses-lisp-names (forms)
   (let ((names '()))
