@@ -251,6 +251,16 @@ The core is left out: it reads its chapters for all."
                unless (uses-may-p (uses-room (uses-part-name part)) (uses-room other))
                  collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
 
+(defun $uses_defined_twice ()
+  "[[name, part, part], ..]: the later definition would replace the earlier in silence."
+  (let ((home (make-hash-table :test #'equal)) (twice '()))
+    (dolist (part (uses-known) (apply #'uses-list twice))
+      (dolist (name (uses-part-defined part))
+        (let ((other (gethash name home)))
+          (when (and other (string/= other (uses-part-name part)))
+            (push (uses-list name other (uses-part-name part)) twice)))
+        (setf (gethash name home) (uses-part-name part))))))
+
 (defun $uses_shared_names ()
   "Names that files of two rooms have; each room has a register."
   (let ((names (loop for part in (uses-parts)

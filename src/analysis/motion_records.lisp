@@ -30,3 +30,8 @@ not zero."
   "Routh's function R = a*v^2/2 + b*v + R0 of one coordinate q, v = q': `square' is a, `linear' is
 b, `rest' is R0."
   whole coordinate velocity square linear rest)
+
+(core-record analysis-jacobi-case
+  "A case of Jacobi's rule: expressions that are positive, the number of negative squares, the sign
+of the last minor, what is left of the conditions."
+  positive negative sign conditions)

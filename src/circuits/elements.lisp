@@ -19,6 +19,11 @@ an L, of the voltage of a C, else false; `control' the nodes or the label of a c
 false."
   one other mutual k)
 
+(core-record circuits-winding
+  "The inductor of that number where others determine it, u = sum w*u_k, by the sparse row of the
+weights, [k, w]."
+  number weights)
+
 ;;; What is derived of a circuit, each from the one above with more known of it: the circuit as it
 ;;; was read, the same with a tree, the network.
 
