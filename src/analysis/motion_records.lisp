@@ -35,3 +35,12 @@ b, `rest' is R0."
   "A case of Jacobi's rule: expressions that are positive, the number of negative squares, the sign
 of the last minor, what is left of the conditions."
   positive negative sign conditions)
+
+(core-record analysis-alternative
+  "One of the alternatives that a step of solving leaves: what is found, [x = value] or [];
+conditions, which vanish; what is apart from zero."
+  found conditions (apart '((mlist simp))))
+
+(core-record analysis-root
+  "A root of a polynomial, and what must vanish for it."
+  value (conditions '((mlist simp))))
