@@ -22,6 +22,17 @@
 (defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
 (defparameter *analysis-variables* (list "variables" *analysis-none*))
 
+;;; Arguments. K is a function, and a matrix where forces are given by theirs.
+
+(core-argument :formula "K" "polynomial")
+(core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
+(core-argument :variables "variables")
+(core-argument :variable "lambda" "u")
+(core-argument :solution "solution")
+(core-argument :rates "equations")
+(core-argument :integrals "integrals")
+(core-argument :vanishing "within" "manifold")
+
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
 
 ;;; Stationary sets
