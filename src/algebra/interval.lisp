@@ -12,7 +12,8 @@
 
 (defvar *algebra-interval-bits* 64)
 (defvar *algebra-point* nil "values of symbols and open functions: (expression . rational), ..")
-(defvar *algebra-coordinate* nil "function that gives a symbol its value; nil: constants only")
+(defvar *algebra-coordinate* nil
+  "function that gives a symbol or open function its value; nil: constants only")
 
 (defun algebra-interval-sign-among (e widths)
   (loop for bits in widths
@@ -75,7 +76,7 @@
   (let ((key (if (atom e) e (algebra-canonical-noun e))))
     (algebra-i
      (cdr (or (assoc key *algebra-point* :test #'alike1)
-              (car (push (cons key (funcall *algebra-coordinate*)) *algebra-point*)))))))
+              (car (push (cons key (funcall *algebra-coordinate* key)) *algebra-point*)))))))
 
 ;;; Arithmetic.
 

@@ -8,6 +8,11 @@
 
 (core-option :truth "simplify" "expanded" "eliminate" "solved")
 
+(core-argument :formula "Lagrangian" "lagrangian" "hamiltonian")
+(core-argument :shape "expression" "f" "g")
+(core-argument :variables "coordinates")
+(core-argument :motion "motion")
+
 (core-fact-judge "algebra/known_signs" 'algebra-name-signs)
 
 ;;; What acts beside L, and how equations are wanted
