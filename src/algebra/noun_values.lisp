@@ -33,11 +33,6 @@
                e)
               (t (algebra-with-parts e (mapcar #'algebra-carried-out (cdr e))))))))
 
-(defun algebra-with-parts (e parts)
-  (if (every #'eq parts (cdr e))
-      e
-      (simplifya (cons (remove 'simp (car e)) parts) nil)))
-
 ;;; ---- sums and products of few terms
 
 (defparameter *algebra-most-summands* 100)

@@ -17,6 +17,11 @@
 (defun algebra-call-p (e)
   (and (consp e) (consp (car e))))
 
+(defun algebra-with-parts (e parts)
+  (if (every #'eq parts (cdr e))
+      e
+      (simplifya (cons (remove 'simp (car e)) parts) nil)))
+
 (defun algebra-bound-name (e)
   "The dummy variable of a definite integral, sum or product, of a limit; else nil."
   (and (algebra-call-p e)

@@ -9,6 +9,7 @@
 (core-option :truth "simplify" "expanded" "eliminate" "solved")
 
 (core-fact-judge "algebra/known_signs" 'algebra-name-signs)
+(core-divisor-judge "algebra/divisors" 'algebra-require-divisors)
 
 ;;; What acts beside L, and how equations are wanted
 
