@@ -177,6 +177,28 @@ keeps its value."
 
 (defun $core_textp (e) (stringp e))
 
+;;; What else to do, at the end of a refusal
+
+(defvar *core-has-parameters* t
+  "Whether the system of this call has parameters, or a function that tells it.")
+
+(defun core-number-advice ()
+  "The advice to give numbers to some parameters, nil where there are none."
+  (and (if (functionp *core-has-parameters*)
+           (funcall *core-has-parameters*)
+           *core-has-parameters*)
+       "give numbers to some parameters"))
+
+(defun $core_number_advice () (core-number-advice))
+
+(defun core-advised (&rest phrases)
+  "\"; do this, do that, or do the other\": those of PHRASES that are not nil."
+  (let ((advice (remove nil phrases)))
+    (format nil "~[~:;; ~]~{~#[~;~a~;~a, or ~a~:;~@{~a~#[~;, or ~:;, ~]~}~]~}" (length advice)
+            advice)))
+
+(defun $core_advised (&rest phrases) (apply #'core-advised phrases))
+
 ;;; Names that a result brings of itself must not be those of the system
 
 (defvar *core-names* '() "All names in the arguments and the description of this call.")

@@ -14,6 +14,7 @@
 (core-argument :motion "motion")
 
 (core-fact-judge "algebra/known_signs" 'algebra-name-signs)
+(core-divisor-judge "algebra/divisors" 'algebra-require-divisors)
 
 ;;; What acts beside L, and how equations are wanted
 
