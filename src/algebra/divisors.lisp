@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/nouns" "algebra/constant_sign" "algebra/sign"
+  (core-require "algebra/size" "algebra/nouns" "algebra/sign"
                 "algebra/sign_by_bounds"))
 
 (defparameter *algebra-divisor-size* 200 "Longer divisors are not looked at.")
