@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Values of elements in bigfloats of any precision, by Maxima's arithmetic on mantissas and
-;;; exponents, with guard digits. A constant of the program is rounded once for a precision. Where a
-;;; function has no value there is an error that says so.
+;;; exponents, with guard digits. A constant of the program is rounded once for a precision. Where
+;;; a function has no value there is an error that says so.
 ;;;     sinh = (D + D/(1 + D))/2, D = exp - 1;  asin x = atan2(x, sqrt((1 - x)(1 + x)))
 
 (in-package :maxima)
@@ -29,8 +29,8 @@
         (t (cdr (bigfloatp x)))))
 
 (defun numerics-big-routine (elements names digits)
-  "A function of the list of the values of NAMES, rational numbers or bigfloats: the list of bigfloats
-of DIGITS that ELEMENTS then have."
+  "A function of the list of the values of NAMES, rational numbers or bigfloats: the list of the
+values of ELEMENTS, bigfloats of DIGITS."
   (let* ((bits (numerics-bits-of-digits digits)) (inner (+ bits numerics-guard-bits))
          (constants (make-hash-table)) (values (make-hash-table)) (point '()))
     (labels ((value (element)
@@ -48,7 +48,7 @@ of DIGITS that ELEMENTS then have."
             (loop while fixed do (compute (pop fixed)))
             (mapc #'compute moving)
             (loop for element in elements
-                  collect (numerics-rounded (value element) bits))))))))
+                  collect (numerics-big-rounded (value element) bits))))))))
 
 (defun numerics-fixed-nodes (nodes)
   "Those of NODES that no input moves, and the others."
@@ -63,7 +63,7 @@ of DIGITS that ELEMENTS then have."
       (flet ((moves-p (node) (gethash (algebra-node-index node) moving)))
         (values (remove-if #'moves-p nodes) (remove-if-not #'moves-p nodes))))))
 
-(defun numerics-rounded (number bits)
+(defun numerics-big-rounded (number bits)
   "The bigfloat of BITS for the mantissa and exponent NUMBER."
   (let ((x (bcons number)))
     (with-numerics-bits bits (bigfloatp x))))

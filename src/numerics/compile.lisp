@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; A plan as machine code by the compiler of this Lisp. The nodes go in their order into parts, each
-;;; a function (lambda (x w out) ..) of its own, since compilers take far more than linear time for
-;;; one long function. A value that is used once stands where it is used, others are bound by `let';
-;;; the work vector w holds what another part needs, the arguments and values of elementary
+;;; A plan as machine code by the compiler of this Lisp. The nodes go in their order into parts,
+;;; each a function (lambda (x w out) ..) of its own, since compilers take far more than linear
+;;; time for one long function. A value that is used once stands where it is used, others are bound by
+;;; `let'; the work vector w holds what another part needs, the arguments and values of elementary
 ;;; functions, and the time at 0. See numerics-compiled first.
 
 (in-package :maxima)
@@ -23,8 +23,8 @@
   (length 1)                  ; of the work vector
   (presets '()))              ; ((place . double) ..): constants in the work vector
 
-;;; Statements: a node, (:keep . input), which stores an input, or (:copy place . node), which gives
-;;; out what is not computed in the last stage.
+;;; Statements: a node, (:keep . input), which stores an input, or (:copy place . node), which
+;;; gives out what is not computed in the last stage.
 
 (defun numerics-stages (plan)
   "The statements of both stages."
@@ -39,8 +39,8 @@
             (list (append (keep states) early copies) '()))))))
 
 (defun numerics-kept-inputs (plan copies)
-  "The states, and the seeds, that are needed in the work vector: arguments of functions, states that
-the second stage needs, those of its COPIES too."
+  "The states, and the seeds, that are needed in the work vector: arguments of functions, states
+that the second stage needs, those of its COPIES too."
   (let ((kept '()))
     (flet ((keep (nodes) (dolist (node nodes) (when (algebra-input-p node) (pushnew node kept)))))
       (dolist (node (append (numerics-plan-nodes plan) (numerics-plan-late plan)))
@@ -160,7 +160,7 @@ they are kept."
         (:multiply `(* ,x ,(text y)))
         (:divide `(numerics-quotient ,x ,(text y)))
         (:negate `(- ,x))
-        (:root `(numerics-root ,x))
+        (:root `(numerics-square-root ,x))
         (:absolute `(abs ,x))
         (:sign `(numerics-sign ,x))))))
 
@@ -255,7 +255,8 @@ they are kept."
 (defun numerics-compiled (plan)
   "Two functions: (time x out), and (seed out) for the second stage."
   (multiple-value-bind (code early late) (numerics-new-code plan)
-    (let* ((first (numerics-compiled-parts code early)) (second (numerics-compiled-parts code late))
+    (let* ((first (numerics-compiled-parts code early))
+           (second (numerics-compiled-parts code late))
            (work (numerics-zeros (numerics-code-length code))))
       (loop for (place . value) in (numerics-code-presets code) do (setf (aref work place) value))
       (numerics-entries plan work (lambda (node) (numerics-slot code node))
@@ -266,5 +267,5 @@ they are kept."
   (if (= (length parts) 1)
       (aref parts 0)
       (lambda (x w out)
-        (declare (simple-vector parts) (optimize speed))
+        (declare (type simple-vector parts) (optimize speed))
         (loop for part across parts do (funcall (the function part) x w out)))))

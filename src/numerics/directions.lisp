@@ -36,8 +36,9 @@
     (let* ((states (numerics-program-states program))
            (seeds (loop for nil in states collect (algebra-program-input (gensym)))))
       (numerics-new-plan program
-                         (loop for element in (algebra-program-rates (numerics-program-rates program)
-                                                                     (mapcar #'cons states seeds))
+                         (loop for element in (algebra-program-rates
+                                               (numerics-program-rates program)
+                                               (mapcar #'cons states seeds))
                                for k from 0 collect (cons k element))
                          n seeds))))
 
@@ -64,7 +65,8 @@
   "(i j) -> rational, for the states that stand in a rate by themselves, with a constant factor."
   (let* ((rates (numerics-program-rates program)) (nodes (algebra-live-nodes rates))
          (forms (numerics-forms nodes (lambda (e) (and (rationalp e) e))))
-         (sets (make-hash-table)) (places (make-hash-table)) (slopes (make-hash-table :test #'equal)))
+         (sets (make-hash-table)) (places (make-hash-table))
+         (slopes (make-hash-table :test #'equal)))
     (numerics-spread-dependences program nodes sets)
     (loop for state in (numerics-program-states program)
           for j from 0 do (setf (gethash (algebra-node-index state) places) j))
@@ -124,10 +126,10 @@
 
 (defun numerics-direction-function (first second n groups kept)
   "GROUPS are (columns places rows), KEPT are ((place . double) ..)."
-  (declare (function first second))
+  (declare (type function first second))
   (let ((seed (numerics-zeros n)) (out (numerics-zeros n)) (fill (numerics-filler kept))
         (length (+ (length kept) (loop for (nil places) in groups sum (length places)))))
-    (declare (type numerics-vector seed out) (function fill) (fixnum length))
+    (declare (type numerics-vector seed out) (type function fill) (fixnum length))
     (lambda (time x values)
       (declare (type numerics-vector time x values) (optimize speed))
       (unless (= (length values) length) (numerics-wrong-length))
@@ -136,7 +138,7 @@
             do (numerics-set-seeds columns seed 1d0)
                (funcall second seed out)
                (numerics-set-seeds columns seed 0d0)
-               (numerics-scatter out rows values places))
+               (numerics-scatter-elements out rows values places))
       (funcall fill x out values)
       values)))
 
@@ -145,7 +147,7 @@
            (optimize speed))
   (loop for j across columns do (setf (aref seed j) value)))
 
-(defun numerics-scatter (from rows to places)
+(defun numerics-scatter-elements (from rows to places)
   "The elements of FROM in ROWS to the PLACES of the vector TO."
   (declare (type numerics-vector from to) (type numerics-indices rows places) (optimize speed))
   (dotimes (k (length rows))

@@ -8,15 +8,15 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/gauss_stages" "numerics/gauss_first_step"
-                "numerics/gauss_dense"))
+  (core-require "numerics/problem" "numerics/step_control" "numerics/gauss_stages"
+                "numerics/gauss_first_step" "numerics/gauss_dense"))
 
 (defun numerics-gauss (problem controls moment state observer &key order)
   "Integrates PROBLEM, x' = X(t, x), from STATE at MOMENT; an outcome. ORDER is an even number up to
 12; where it is not given, the tolerance chooses."
   (let* ((moment (copy-seq moment)) (state (copy-seq state))
          (stages (/ (or order (numerics-gauss-order controls)) 2))
-         (run (numerics-new-gauss-run problem stages (numerics-controls-counts controls)))
+         (run (numerics-new-gauss-run problem stages controls))
          (step (numerics-gauss-fitting-step problem controls moment state stages)))
     (cond ((realp step)
            (numerics-gauss-set-step run step)
@@ -38,7 +38,7 @@
   (let ((seen (make-numerics-step :before (copy-seq state) :after state))
         (end (numerics-controls-end controls)))
     (setf (numerics-step-interpolate seen)
-          (numerics-gauss-dense run seen (numerics-controls-scales controls)))
+          (numerics-gauss-dense run seen controls))
     (loop (when (= (aref moment 0) end) (return :end))
           (let ((fault (numerics-gauss-one-step run controls moment seen)))
             (when fault (return fault)))
@@ -51,14 +51,14 @@
   (declare (type numerics-vector moment) (optimize speed))
   (let* ((state (numerics-step-after seen)) (counts (numerics-controls-counts controls))
          (most (numerics-controls-most-steps controls)) (end (numerics-controls-end controls))
-         (left (- (- end (aref moment 0)) (aref moment 1)))
+         (left (numerics-time-left controls moment))
          (last (<= (abs left) (* 1.000001d0 (abs (numerics-gauss-run-step run))))))
     (declare (double-float left) (type (or null fixnum) most))
     (when last (numerics-gauss-set-step run left))
     (replace (numerics-step-from seen) moment)
     (replace (numerics-step-before seen) state)
     (cond ((and most (>= (numerics-counts-steps counts) most)) :most-steps)
-          ((numerics-gauss-solve run moment state (numerics-controls-scales controls)))
+          ((numerics-gauss-solve run moment state))
           (t (numerics-gauss-advance run state)
              (incf (numerics-counts-steps counts))
              (cond (last (setf (aref moment 0) end
@@ -72,5 +72,5 @@
    :status status :moment moment :state state :step step
    :about (case status
             (:not-finite "the rates have no finite value in a step of Gauss' method")
-            (:no-convergence "the stages of Gauss' method do not converge: the step is too long, ~
-                              or the system stiff and work for radau"))))
+            (:no-convergence "the stages of Gauss' method do not converge: the step is too long or \
+the system stiff"))))

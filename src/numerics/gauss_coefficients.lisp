@@ -11,7 +11,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem"))
+  (core-require "numerics/problem" "numerics/decimals"))
 
 ;;; Polynomials are lists of rational numbers, the lowest power first.
 
@@ -92,14 +92,13 @@
 (defun numerics-vector-of (rows)
   (let ((numbers (apply #'append rows)))
     (make-array (length numbers) :element-type 'double-float
-                                 :initial-contents (mapcar (lambda (x) (coerce x 'double-float))
-                                                           numbers))))
+                                 :initial-contents (mapcar #'numerics-rounded numbers))))
 
 (defun numerics-gauss-quotients (nodes weights)
   "Rows of a_ij/b_j, those below the diagonal rounded, those above it 1 less the former."
   (let ((exact (coerce (numerics-collocation-integrals nodes nodes) 'vector)))
     (flet ((quotient (i j)
-             (rational (coerce (/ (nth j (aref exact i)) (nth j weights)) 'double-float))))
+             (rational (numerics-rounded (/ (nth j (aref exact i)) (nth j weights))))))
       (loop for i below (length nodes)
             collect (loop for j below (length nodes)
                           collect (cond ((= i j) 1/2)

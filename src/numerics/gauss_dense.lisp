@@ -11,19 +11,18 @@
 
 (defstruct numerics-gauss-dense
   run inner          ; the run, and one for parts of its step
-  seen scales
+  seen
   (step-number 0)    ; that of the step of the states below
   states slopes)     ; s + 1 vectors each: at 0, 1/s, .., 1
 
-(defun numerics-gauss-dense (run seen scales)
+(defun numerics-gauss-dense (run seen controls)
   "The function (share out) for the step SEEN."
   (let* ((n (numerics-gauss-run-size run)) (stages (numerics-gauss-run-stages run))
          (dense (flet ((several ()
                          (coerce (loop repeat (1+ stages) collect (numerics-zeros n)) 'vector)))
                   (make-numerics-gauss-dense
-                   :run run :seen seen :scales scales :states (several) :slopes (several)
-                   :inner (numerics-new-gauss-run (numerics-gauss-run-problem run) stages
-                                                  (numerics-gauss-run-counts run))))))
+                   :run run :seen seen :states (several) :slopes (several)
+                   :inner (numerics-new-gauss-run (numerics-gauss-run-problem run) stages controls)))))
     (lambda (share out)
       (let ((number (numerics-counts-steps (numerics-gauss-run-counts run))))
         (unless (= number (numerics-gauss-dense-step-number dense))
@@ -53,8 +52,7 @@
     (fill (numerics-gauss-run-low inner) 0d0)
     (replace state (numerics-step-before seen))
     (numerics-gauss-foretell inner (svref shares k) memory 1)
-    (numerics-gauss-settle inner (numerics-step-from seen) state
-                           (numerics-gauss-dense-scales dense) t)
+    (numerics-gauss-settle inner (numerics-step-from seen) state t)
     (numerics-gauss-advance inner state)))
 
 (defun numerics-gauss-set-slope (dense k)

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/gauss_stages"))
+  (core-require "numerics/problem" "numerics/step_control" "numerics/gauss_stages"))
 
 (defstruct (numerics-pilot (:conc-name numerics-pilot-))
   controls moment state ; where it is
@@ -28,12 +28,11 @@
                    step))))))
 
 (defun numerics-new-pilot (problem controls moment state stages)
-  (let ((counts (numerics-controls-counts controls)))
-    (make-numerics-pilot
-     :controls controls :moment (copy-seq moment) :state (copy-seq state)
-     :whole (numerics-new-gauss-run problem stages counts)
-     :half (numerics-new-gauss-run problem stages counts)
-     :after (copy-seq state) :other (copy-seq state))))
+  (make-numerics-pilot
+   :controls controls :moment (copy-seq moment) :state (copy-seq state)
+   :whole (numerics-new-gauss-run problem stages controls)
+   :half (numerics-new-gauss-run problem stages controls)
+   :after (copy-seq state) :other (copy-seq state)))
 
 (defun numerics-gauss-pilot (pilot span)
   "The shortest step, with its sign, of a pilot run along a part of SPAN; or what went wrong."
@@ -75,8 +74,7 @@
 (defun numerics-pilot-step-on (run pilot moment state step)
   (numerics-gauss-set-step run step)
   (fill (numerics-gauss-run-low run) 0d0)
-  (unless (numerics-gauss-solve run moment state
-                                (numerics-controls-scales (numerics-pilot-controls pilot)))
+  (unless (numerics-gauss-solve run moment state)
     (numerics-gauss-advance run state)
     t))
 
@@ -87,12 +85,10 @@
                 (numerics-pilot-step-on run pilot moment other half)))))
 
 (defun numerics-pilot-error (pilot)
-  (loop with scales = (numerics-controls-scales (numerics-pilot-controls pilot))
-        for a across (numerics-pilot-after pilot)
+  (loop for a across (numerics-pilot-after pilot)
         for b across (numerics-pilot-other pilot)
-        for scale across scales
-        for extent = (+ (abs b) scale)
-        when (> extent 0d0) maximize (/ (abs (- a b)) extent)))
+        for scale across (numerics-gauss-run-scales (numerics-pilot-whole pilot))
+        maximize (/ (abs (- a b)) (numerics-scale a b scale))))
 
 (defun numerics-pilot-accept (pilot)
   (replace (numerics-pilot-state pilot) (numerics-pilot-other pilot))

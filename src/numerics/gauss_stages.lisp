@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/gauss_coefficients"))
+  (core-require "numerics/problem" "numerics/step_control" "numerics/gauss_coefficients"))
 
 (defstruct numerics-gauss-run
   table problem counts
@@ -24,17 +24,19 @@
   (memory #() :type simple-vector) ; increments of the steps before, the oldest first
   (known 0 :type fixnum)           ; how many of these there are
   (low (numerics-zeros 0) :type (simple-array double-float (*)))
+  (scales (numerics-zeros 0) :type (simple-array double-float (*)))
   (weights (numerics-zeros 0) :type (simple-array double-float (*)))
   (out (numerics-zeros 0) :type (simple-array double-float (*)))
   (states #() :type simple-vector)  ; Y_i
   (moments #() :type simple-vector))
 
-(defun numerics-new-gauss-run (problem stages counts)
+(defun numerics-new-gauss-run (problem stages controls)
   (let ((n (numerics-problem-size problem)))
     (flet ((several (count length)
              (coerce (loop repeat count collect (numerics-zeros length)) 'simple-vector)))
       (make-numerics-gauss-run
-       :table (numerics-gauss-table stages) :problem problem :counts counts
+       :table (numerics-gauss-table stages) :problem problem
+       :counts (numerics-controls-counts controls) :scales (numerics-full-scales controls n)
        :stages stages :size n :split (or (numerics-problem-split problem) 0)
        :parts (numerics-zeros stages) :increments (numerics-zeros (* stages n))
        :memory (several *numerics-gauss-memory* (* stages n))
@@ -105,11 +107,11 @@
               (aref stage 1) (aref moment 1))
         (numerics-advance stage (* (aref nodes i) step))))))
 
-(defun numerics-gauss-set-weights (run state scales)
+(defun numerics-gauss-set-weights (run state)
   "What a change is multiplied with: 1/(|x_k| + |increments| + s_k); 0 for what neither is nor moves."
-  (declare (type numerics-vector state scales) (optimize speed))
-  (let ((weights (numerics-gauss-run-weights run)) (increments (numerics-gauss-run-increments run))
-        (n (numerics-gauss-run-size run)))
+  (declare (type numerics-vector state) (optimize speed))
+  (let ((weights (numerics-gauss-run-weights run)) (scales (numerics-gauss-run-scales run))
+        (increments (numerics-gauss-run-increments run)) (n (numerics-gauss-run-size run)))
     (declare (type numerics-index n))
     (dotimes (k n)
       (let ((extent (+ (abs (aref state k)) (aref scales k))))
@@ -200,42 +202,41 @@
       (numerics-gauss-set-increments run out i split))
     (incf (numerics-counts-rates (numerics-gauss-run-counts run)) stages)))
 
-(defun numerics-gauss-iterate (run state scales)
-  "Sweeps until there is no further improvement; nil, or what went wrong."
-  (let ((last 0d0) (largest 0d0))
-    (declare (double-float last largest) (optimize speed))
-    (numerics-gauss-set-weights run state scales)
+(defun numerics-gauss-iterate (run state)
+  "Sweeps until there is no further improvement; nil, or what went wrong. Changes may shrink in every
+second sweep only, so that one without improvement ends it at the last place, two elsewhere."
+  (let ((best 0d0) (worse 0))
+    (declare (double-float best) (fixnum worse) (optimize speed))
+    (numerics-gauss-set-weights run state)
     (dotimes (sweep 60 :no-convergence)
       (setf (numerics-gauss-run-finite run) t)
       (numerics-gauss-sweep run state)
       (let ((change (numerics-gauss-run-change run)))
-        (setq largest (max largest change))
         (cond ((not (numerics-gauss-run-finite run)) (return :not-finite))
               ((= change 0d0) (return nil))
-              ((and (plusp sweep) (>= change last)
-                    (or (< change 1d-11) (< change (* 1d-6 largest))))
-               (return nil)))
-        (setq last change)))))
+              ((or (= sweep 0) (< change best)) (setq best change worse 0))
+              ((or (< change 1d-15) (and (< best 1d-9) (= worse 1))) (return nil))
+              (t (incf worse)))))))
 
-(defun numerics-gauss-settle (run moment state scales guessed)
+(defun numerics-gauss-settle (run moment state guessed)
   "The increments from a guess, where there is one that leads to them; nil, or what went wrong."
   (numerics-gauss-set-moments run moment)
-  (let ((fault (or (not guessed) (numerics-gauss-iterate run state scales))))
+  (let ((fault (or (not guessed) (numerics-gauss-iterate run state))))
     (when (and fault guessed)
       (incf (numerics-counts-rejected (numerics-gauss-run-counts run))))
     (when fault
       (numerics-gauss-begin run moment state)
-      (setq fault (numerics-gauss-iterate run state scales)))
+      (setq fault (numerics-gauss-iterate run state)))
     fault))
 
-(defun numerics-gauss-solve (run moment state scales)
+(defun numerics-gauss-solve (run moment state)
   "The increments of the step from MOMENT and STATE; nil, or what went wrong."
   (let ((known (numerics-gauss-run-known run)))
     (when (plusp known)
       (numerics-gauss-foretell
        run (svref (numerics-gauss-table-memories (numerics-gauss-run-table run)) known)
        (numerics-gauss-run-memory run) known))
-    (numerics-gauss-settle run moment state scales (plusp known))))
+    (numerics-gauss-settle run moment state (plusp known))))
 
 ;;; The end of a step.
 

@@ -64,10 +64,10 @@
   (let ((sum '()))
     (when (some slopes-of (algebra-node-parts node))
       (loop for (part . derivative) in (algebra-partial-derivatives node)
-            do (setq sum (numerics-chained-slope sum derivative (funcall slopes-of part)))))
+            do (setq sum (numerics-slopes-plus sum derivative (funcall slopes-of part)))))
     sum))
 
-(defun numerics-chained-slope (a factor b)
+(defun numerics-slopes-plus (a factor b)
   "The slopes A + FACTOR*B."
   (let ((sum '()))
     (flet ((note (j element) (unless (eql element 0) (push (cons j element) sum)))
@@ -91,5 +91,6 @@
          (pattern (numerics-pattern-of (length rows) entries))
          (outputs (loop for (nil nil element) in entries
                         for place from 0 collect (cons place element))))
-    (values (numerics-routine-of-plan (numerics-new-plan program outputs (length entries)) how calls)
+    (values (numerics-routine-of-plan (numerics-new-plan program outputs (length entries))
+                                      how calls)
             pattern)))

@@ -47,7 +47,8 @@ nil."
 (defun numerics-form-sum (a factor b)
   "The form A + FACTOR*B."
   (let ((sum '()) (p (cdr a)) (q (cdr b)))
-    (flet ((note (node coefficient) (unless (eql coefficient 0) (push (cons node coefficient) sum))))
+    (flet ((note (node coefficient)
+             (unless (eql coefficient 0) (push (cons node coefficient) sum))))
       (loop while (or p q)
             do (cond ((or (null q) (and p (algebra-in-order-p (caar p) (caar q))))
                       (push (pop p) sum))
@@ -78,8 +79,8 @@ nil."
 (defun numerics-pure-p (form) (every #'algebra-input-p (mapcar #'car (cdr form))))
 
 (defun numerics-worthy-rows (chosen form outputs share)
-  "The rows of CHOSEN and the other OUTPUTS, or nil where they replace too few nodes: less than SHARE
-of all, or less than half as many as the product has entries."
+  "The rows of CHOSEN and the other OUTPUTS, or nil where they replace too few nodes: less than
+SHARE of all, or less than half as many as the product has entries."
   (let* ((others (set-difference outputs chosen))
          (rows (loop for output in chosen collect (cons (car output) (funcall form output))))
          (kept (append (mapcar #'cdr others)
@@ -88,7 +89,8 @@ of all, or less than half as many as the product has entries."
          (replaced (- all (numerics-count-operations kept))))
     (and (>= replaced *numerics-least-rows*)
          (>= replaced (* share all))
-         (<= (loop for (nil nil . terms) in rows sum (length terms)) (+ (* 2 replaced) (length rows)))
+         (<= (loop for (nil nil . terms) in rows sum (length terms))
+             (+ (* 2 replaced) (length rows)))
          (values rows (sort others #'< :key #'car)))))
 
 (defun numerics-count-operations (elements)
@@ -111,8 +113,8 @@ of all, or less than half as many as the product has entries."
 (defun numerics-double-vector (list) (coerce list 'numerics-vector))
 
 (defun numerics-new-product (rows state-place work-place double)
-  "The product of ROWS (place . form). STATE-PLACE gives the place of a node among the states, or nil,
-WORK-PLACE that in the work vector; DOUBLE rounds a rational number."
+  "The product of ROWS (place . form). STATE-PLACE gives the place of a node among the states, or
+nil, WORK-PLACE that in the work vector; DOUBLE rounds a rational number."
   (flet ((terms (row state-p)
            (loop for (node . coefficient) in (cddr row)
                  for place = (funcall state-place node)
@@ -151,6 +153,7 @@ WORK-PLACE that in the work vector; DOUBLE rounds a rational number."
         (declare (double-float sum))
         (loop for k of-type numerics-index from (aref starts i) below (aref starts (1+ i))
               do (incf sum (* (aref values k) (aref state (aref factors k)))))
-        (loop for k of-type numerics-index from (aref work-starts i) below (aref work-starts (1+ i))
+        (loop for k of-type numerics-index from (aref work-starts i)
+                below (aref work-starts (1+ i))
               do (incf sum (* (aref work-values k) (aref work (aref work-factors k)))))
         (setf (aref out (aref places i)) sum)))))

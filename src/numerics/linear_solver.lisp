@@ -3,8 +3,8 @@
 ;;; is installed; else elimination in the band that reverse Cuthill-McKee leaves, where that is
 ;;; cheaper; else in the full matrix.
 ;;;     (numerics-make-solver n pattern mass :complex nil) -> solver
-;;;     (numerics-factor solver entries-of-J)   with the slots shift, shift-imaginary set before;
-;;;                                             true where singular: see singular-row, -column
+;;;     (numerics-factor solver entries-of-J)   with the slots shift, shift-imaginary set before; true
+;;;             where singular: singular-column follows from the others, and singular-row if not nil
 ;;;     (numerics-solve solver x [y])           in place, y the imaginary parts
 ;;;     (numerics-release-solver solver)        at the end
 
@@ -12,7 +12,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/problem" "numerics/linear_solver_matrix" "numerics/linear_solver_order"
-                "numerics/linear_solver_elimination" "numerics/linear_solver_klu"))
+                "numerics/linear_solver_elimination" "numerics/linear_solver_klu"
+                "numerics/null_space"))
 
 (defparameter *numerics-most-without-klu* 200 "Unknowns of a sparse system that KLU is not asked for.")
 (defparameter *numerics-most-entries* 25000000 "Of a matrix in our own storage.")
@@ -111,9 +112,22 @@ where it is chosen here."
   (numerics-assemble solver jacobian)
   (cond ((eq (numerics-solver-kind solver) :klu) (numerics-factor-by-klu solver))
         (t (numerics-measure-entries solver)
-           (if (numerics-solver-complex solver)
-               (numerics-eliminate-complex solver)
-               (numerics-eliminate solver)))))
+           (cond ((numerics-solver-complex solver) (numerics-eliminate-complex solver))
+                 ((numerics-eliminate solver) (numerics-find-singular-row solver jacobian))))))
+
+(defun numerics-find-singular-row (solver jacobian)
+  "Notes a row that follows from the others. True."
+  (numerics-assemble solver jacobian)
+  (let* ((places (numerics-solver-places solver)) (values (numerics-zeros (length places)))
+         (real (numerics-solver-real solver)))
+    (map-into values (lambda (place) (aref real place)) places)
+    (let ((combination (first (numerics-null-vectors
+                               (make-numerics-matrix :pattern (numerics-solver-pattern solver)
+                                                     :values values)
+                               nil))))
+      (setf (numerics-solver-singular-row solver)
+            (and combination (car (numerics-largest-entry combination))))
+      t)))
 
 (defun numerics-orientation (solver)
   "The sign of the determinant of the factored real matrix; nil where it is not known."

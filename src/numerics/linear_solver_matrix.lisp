@@ -40,7 +40,7 @@
   (stride 0 :type fixnum) ; entry (i, j) stands at i + j*stride + offset
   (offset 0 :type fixnum)
   (klu nil)               ; what the library holds
-  (singular-row 0 :type fixnum)
+  (singular-row nil)          ; nil where it is not known
   (singular-column 0 :type fixnum))
 
 ;;; Patterns.
@@ -77,8 +77,13 @@
   (let ((columns (make-array (numerics-pattern-size one))))
     (dotimes (j (length columns) (numerics-pattern-of-columns columns))
       (setf (aref columns j)
-            (remove-duplicates
+            (numerics-without-repeats
              (merge 'list (numerics-column-rows one j) (numerics-column-rows other j) #'<))))))
+
+(defun numerics-without-repeats (numbers)
+  "NUMBERS, which do not decrease, each once."
+  (loop for (number . more) on numbers
+        unless (eql number (car more)) collect number))
 
 (defun numerics-entries-within (pattern whole)
   "Which entries of WHOLE those of PATTERN are."
@@ -170,9 +175,7 @@
                          (aref (numerics-solver-column-sizes solver) k)))))))
 
 (defun numerics-note-singular (solver k)
-  "Column K has no pivot: the unknown and the equation by their own numbers. True."
-  (let ((order (numerics-solver-order solver)))
-    (setf (numerics-solver-singular-column solver) (aref order k)
-          (numerics-solver-singular-row solver)
-          (aref order (aref (numerics-solver-row-order solver) k)))
-    t))
+  "Column K has no pivot. True."
+  (setf (numerics-solver-singular-column solver) (aref (numerics-solver-order solver) k)
+        (numerics-solver-singular-row solver) nil)
+  t)

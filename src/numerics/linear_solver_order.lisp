@@ -19,7 +19,7 @@
           (push i (aref lists j))
           (push j (aref lists i)))))
     (dotimes (i n)
-      (setf (aref lists i) (remove-duplicates (sort (aref lists i) #'<))
+      (setf (aref lists i) (numerics-without-repeats (sort (aref lists i) #'<))
             (aref degrees i) (length (aref lists i))))
     (dotimes (i n lists)
       (setf (aref lists i) (stable-sort (aref lists i) #'< :key (lambda (j) (aref degrees j)))))))

@@ -72,7 +72,8 @@
 (defun numerics-layout-place (layout element)
   (let ((value (numerics-constant (numerics-layout-plan layout) element)))
     (if value
-        (let ((value (numerics-constant-double value)) (constants (numerics-layout-constants layout)))
+        (let ((value (numerics-constant-double value))
+              (constants (numerics-layout-constants layout)))
           (or (gethash value constants)
               (setf (gethash value constants) (numerics-layout-take layout 1))))
         (numerics-layout-slot layout element))))
@@ -114,7 +115,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *numerics-machine-operations*
     `((:add (+ (a) (b))) (:subtract (- (a) (b))) (:multiply (* (a) (b)))
-      (:divide (numerics-quotient (a) (b))) (:negate (- (a))) (:root (numerics-root (a)))
+      (:divide (numerics-quotient (a) (b))) (:negate (- (a))) (:root (numerics-square-root (a)))
       (:absolute (abs (a))) (:sign (numerics-sign (a))) (:turn nil)
       ,@(loop for (operation) in *numerics-c-names*
               collect (list operation
@@ -204,11 +205,12 @@
 
 (defun numerics-gatherer (run layout plan)
   "The function (x work out) that calls RUN and then gives out what is in WORK."
-  (declare (function run))
+  (declare (type function run))
   (let ((places (numerics-index-vector (mapcar #'car (numerics-plan-outputs plan))))
         (slots (numerics-index-vector
                 (loop for (nil . node) in (numerics-plan-outputs plan)
                       collect (numerics-layout-slot layout node)))))
+    (declare (type numerics-indices places slots))
     (lambda (x work out)
       (declare (type numerics-vector x work out) (optimize speed (safety 0)))
       (funcall run x work out)

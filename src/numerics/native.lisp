@@ -1,5 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a Lisp has beyond its standard, and what stands for it elsewhere: nothing else here names it.
+;;; What a Lisp has beyond its standard, and what stands for it elsewhere; no other part of this
+;;; room names it.
 ;;;     (numerics-with-masked-traps ..)   floats give infinity and NaN inside, never an error
 ;;;     (numerics-load-library '("libklu.so.1" "libklu.so.2")) -> the name that was found, or nil
 ;;;     (numerics-foreign-call "klu_solve" :int (:address symbolic) (:int n) (:vector b)) calls C
@@ -88,8 +89,8 @@
   #-sbcl
   `(core-error "~a: this Lisp calls no functions of C" ,name))
 
-;;; Elementary functions of double-float numbers, by the names of operations in programs: where they
-;;; have no value they give NaN, and no error nor a complex number. The sign of NaN is NaN.
+;;; Elementary functions of double-float numbers, by the names of operations in programs: where
+;;; they have no value they give NaN, and no error nor a complex number. The sign of NaN is NaN.
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *numerics-c-names*
@@ -108,15 +109,33 @@
   #-sbcl `(setf (aref ,vector ,place) ,value))
 
 (defmacro numerics-sign (x)
-  `(let ((x ,x)) (cond ((> x 0d0) 1d0) ((< x 0d0) -1d0) (t x))))
+  #+sbcl `(let ((x ,x)) (cond ((> x 0d0) 1d0) ((< x 0d0) -1d0) (t x)))
+  #-sbcl `(numerics-plain-sign ,x))
 
-(defmacro numerics-root (x)
+(defmacro numerics-square-root (x)
   #+sbcl `(sb-kernel::%sqrt ,x)
-  #-sbcl `(let ((x ,x)) (if (>= x 0d0) (sqrt x) (numerics-not-a-number))))
+  #-sbcl `(numerics-plain-root ,x))
 
 (defmacro numerics-quotient (x y)
   #+sbcl `(/ ,x ,y)
-  #-sbcl `(let ((x ,x) (y ,y)) (if (= y 0d0) (* x (numerics-infinity)) (/ x y))))
+  #-sbcl `(numerics-plain-quotient ,x ,y))
+
+;;; As functions: in a `let' one of these Lisps takes NaN to be greater than 0.
+
+#-sbcl
+(defun numerics-plain-sign (x)
+  (declare (double-float x))
+  (cond ((> x 0d0) 1d0) ((< x 0d0) -1d0) (t x)))
+
+#-sbcl
+(defun numerics-plain-root (x)
+  (declare (double-float x))
+  (if (>= x 0d0) (sqrt x) (numerics-not-a-number)))
+
+#-sbcl
+(defun numerics-plain-quotient (x y)
+  (declare (double-float x y))
+  (if (= y 0d0) (* x (numerics-infinity)) (/ x y)))
 
 (defmacro numerics-elementary (operation &rest arguments)
   "The function OPERATION, a keyword, of one or two numbers."
@@ -129,30 +148,41 @@
 #-sbcl
 (defun numerics-plain-elementary (operation x &optional (y 1d0))
   (flet ((finite-p (x) (<= (abs x) most-positive-double-float)))
-    (let ((value (cond ((and (finite-p x) (finite-p y)) (numerics-plain-value operation x y))
-                       ((and (eq operation :exponential) (< x 0d0)) 0d0)
-                       ((and (member operation '(:exponential :logarithm)) (> x 0d0)) x))))
+    (let ((value (cond ((/= x x) x)
+                       ((and (finite-p x) (finite-p y)) (numerics-plain-value operation x y))
+                       ((finite-p y) (numerics-plain-limit operation x)))))
       (if (floatp value) value (numerics-not-a-number)))))
+
+#-sbcl
+(defun numerics-plain-limit (operation x)
+  "The value at the infinite X, nil for none."
+  (case operation
+    (:exponential (if (> x 0d0) x 0d0))
+    (:logarithm (and (> x 0d0) x))
+    (:arctangent (cl:atan (if (> x 0d0) 1d300 -1d300)))
+    (:hyperbolic-sine x)
+    (:hyperbolic-cosine (abs x))
+    (:hyperbolic-tangent (if (> x 0d0) 1d0 -1d0))))
 
 #-sbcl
 (defun numerics-plain-value (operation x y)
   "The value for finite X and Y; where there is none another thing than a float."
   (ecase operation
-    (:sine (sin x))
-    (:cosine (cos x))
-    (:exponential (exp x))
-    (:logarithm (cond ((> x 0d0) (log x)) ((= x 0d0) (- (numerics-infinity)))))
-    (:arcsine (and (<= -1d0 x 1d0) (asin x)))
-    (:arccosine (and (<= -1d0 x 1d0) (acos x)))
-    (:arctangent (atan x))
-    (:hyperbolic-sine (sinh x))
-    (:hyperbolic-cosine (cosh x))
-    (:hyperbolic-tangent (cond ((> x 20d0) 1d0) ((< x -20d0) -1d0) (t (tanh x))))
-    (:polar-angle (if (and (= x 0d0) (= y 0d0)) 0d0 (atan x y)))
+    (:sine (cl:sin x))
+    (:cosine (cl:cos x))
+    (:exponential (cl:exp x))
+    (:logarithm (cond ((> x 0d0) (cl:log x)) ((= x 0d0) (- (numerics-infinity)))))
+    (:arcsine (and (<= -1d0 x 1d0) (cl:asin x)))
+    (:arccosine (and (<= -1d0 x 1d0) (cl:acos x)))
+    (:arctangent (cl:atan x))
+    (:hyperbolic-sine (cl:sinh x))
+    (:hyperbolic-cosine (cl:cosh x))
+    (:hyperbolic-tangent (cond ((> x 20d0) 1d0) ((< x -20d0) -1d0) (t (cl:tanh x))))
+    (:polar-angle (if (and (= x 0d0) (= y 0d0)) 0d0 (cl:atan x y)))
     (:power (cond ((= y 0d0) 1d0)
                   ((= x 0d0) (if (> y 0d0) 0d0 (numerics-infinity)))
-                  ((> x 0d0) (expt x y))
-                  ((= y (ffloor y)) (expt x (floor y)))))))
+                  ((> x 0d0) (cl:expt x y))
+                  ((= y (ffloor y)) (cl:expt x (floor y)))))))
 
 (defmacro numerics-set-turn (vector place x)
   "Sine and cosine of X into VECTOR at PLACE and after it."
@@ -170,8 +200,8 @@
      (numerics-set-element ,vector ,place (numerics-elementary :sine x))
      (numerics-set-element ,vector (1+ ,place) (numerics-elementary :cosine x))))
 
-;;; The same as functions of places of one vector, for programs that are compiled: a call of these is
-;;; compiled ten times as fast as a call of C.
+;;; The same as functions of places of one vector, for programs that are compiled: a call of these
+;;; is compiled ten times as fast as a call of C.
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defun numerics-put-name (operation)
@@ -182,7 +212,8 @@
   `(progn
      ,@(loop for (operation) in *numerics-c-names*
              for two = (member operation '(:power :polar-angle))
-             collect `(defun ,(numerics-put-name operation) (vector place from ,@(and two '(other)))
+             collect `(defun ,(numerics-put-name operation)
+                          (vector place from ,@(and two '(other)))
                         (declare (type (simple-array double-float (*)) vector)
                                  (type (unsigned-byte 32) place from ,@(and two '(other)))
                                  (optimize speed (safety 0)))

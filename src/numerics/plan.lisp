@@ -82,8 +82,11 @@
           (t (list :none)))))
 
 (defun numerics-bigfloat-rational (x)
+  "X as a rational number; far beyond double-float numbers a number that is so, too."
   ;; ((bigfloat simp precision) mantissa exponent) is mantissa*2^(exponent - precision)
-  (* (second x) (expt 2 (- (third x) (car (last (first x)))))))
+  (cond ((> (abs (third x)) 5000)
+         (* (signum (second x)) (expt 2 (if (plusp (third x)) 5000 -5000))))
+        (t (* (second x) (expt 2 (- (third x) (car (last (first x)))))))))
 
 (defun numerics-constant (plan element)
   "The rational value of ELEMENT where it is constant, :none, or nil."
@@ -127,13 +130,12 @@
 
 (defun numerics-settle-nodes (plan rows others)
   (let ((nodes (remove-if (lambda (node)
-                            (or (algebra-input-p node)
-                                (gethash (algebra-node-index node) (numerics-plan-constants plan))))
+                            (or (algebra-input-p node) (numerics-constant plan node)))
                           (numerics-moving-nodes plan rows others)))
         (late (make-hash-table)))
     (flet ((late-p (node)
              (or (gethash (algebra-node-index node) late)
-                 (eq (car (gethash (algebra-node-index node) (numerics-plan-inputs plan))) :seed))))
+                 (eq (car (numerics-input-place plan node)) :seed))))
       (dolist (node nodes)
         (when (some #'late-p (algebra-node-parts node))
           (setf (gethash (algebra-node-index node) late) t)))
@@ -150,7 +152,8 @@
 (defun numerics-turn (plan node)
   "Sine and cosine of the angle of NODE in their order, nil where the other one is not needed."
   (and (member (algebra-node-operation node) '(:sine :cosine))
-       (let ((turn (gethash (algebra-node-index (algebra-node-left node)) (numerics-plan-turns plan))))
+       (let ((turn (gethash (algebra-node-index (algebra-node-left node))
+                            (numerics-plan-turns plan))))
          (and (rest turn) turn))))
 
 (defun numerics-input-place (plan node)

@@ -8,10 +8,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/native" "numerics/step_control"
-                "numerics/linear_solver" "numerics/radau_coefficients" "numerics/radau_run"
-                "numerics/radau_start" "numerics/radau_newton" "numerics/radau_control"
-                "numerics/radau_stiffness"))
+  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/native"
+                "numerics/problem" "numerics/radau_coefficients" "numerics/radau_control"
+                "numerics/radau_newton" "numerics/radau_run" "numerics/radau_start"
+                "numerics/radau_stiffness" "numerics/step_control"))
 
 (defun numerics-radau (problem controls moment state observer)
   "Integrates PROBLEM from STATE at MOMENT; an outcome."
@@ -79,7 +79,8 @@
   (numerics-with-radau (run problem counts moment before entries)
     (incf (numerics-counts-jacobians counts))
     (funcall (the function (numerics-problem-jacobian problem)) moment before entries)
-    (setf (numerics-radau-run-jacobian run) :fresh)
+    (setf (numerics-radau-run-jacobian run) :fresh
+          (numerics-radau-run-trust run) 0)
     (cond ((numerics-finite-vector-p entries)
            (numerics-radau-follow-radius run)
            nil)
@@ -140,30 +141,40 @@
                    (numerics-radau-without-stages run factor)
                    (numerics-radau-judge run observer)))))))
 
+(defun numerics-radau-reject (run factor failure)
+  "The step is tried again, FACTOR times as long; FAILURE: what it lacked, nil for accuracy."
+  (declare (double-float factor))
+  (incf (numerics-counts-rejected (numerics-radau-run-counts run)))
+  (setf (numerics-radau-run-rejected run) t
+        (numerics-radau-run-failure run) failure
+        (numerics-radau-run-step run) (* factor (numerics-radau-run-step run)))
+  nil)
+
 (defun numerics-radau-without-stages (run factor)
   "An old Jacobian is made anew; with a fresh one the step shortens by FACTOR."
   (declare (double-float factor))
-  (numerics-with-radau (run jacobian step counts)
-    (cond ((eq jacobian :old) (setf (numerics-radau-run-jacobian run) :none))
-          (t (incf (numerics-counts-rejected counts))
-             (setf (numerics-radau-run-rejected run) t
-                   (numerics-radau-run-step run) (* factor step)
-                   (numerics-radau-run-failure run)
-                   (if (= factor 0.25d0) :not-finite :no-convergence))))
-    nil))
+  (cond ((eq (numerics-radau-run-jacobian run) :old)
+         (setf (numerics-radau-run-jacobian run) :none)
+         nil)
+        (t (numerics-radau-reject run factor (if (= factor 0.25d0) :not-finite :no-convergence)))))
 
 (defun numerics-radau-judge (run observer)
   (numerics-radau-estimate run)
-  (numerics-with-radau (run largest-error step counts first)
-    (cond ((< largest-error 1d0) (numerics-radau-accept run observer))
-          (t (incf (numerics-counts-rejected counts))
-             (setf (numerics-radau-run-rejected run) t
-                   (numerics-radau-run-failure run) nil
-                   (numerics-radau-run-step run)
-                   (cond ((not (numerics-finite-p largest-error)) (* 0.25d0 step))
-                         (first (* 0.1d0 step))
-                         (t (/ step (numerics-radau-divisor run)))))
-             nil))))
+  (numerics-with-radau (run largest-error first)
+    (cond ((not (numerics-finite-p largest-error)) (numerics-radau-reject run 0.25d0 :not-finite))
+          ((>= largest-error 1d0)
+           (numerics-radau-reject run (if first 0.1d0 (/ (numerics-radau-divisor run))) nil))
+          ((numerics-radau-look-ahead run) (numerics-radau-accept run observer))
+          (t (incf (numerics-counts-not-finite (numerics-radau-run-counts run)))
+             (numerics-radau-reject run 0.25d0 :not-finite)))))
+
+(defun numerics-radau-look-ahead (run)
+  "The slope at the end of the step, unless the run ends there; whether it is finite."
+  (numerics-with-radau (run moment later step after ahead last)
+    (or last
+        (progn (replace later moment)
+               (numerics-advance later step)
+               (numerics-radau-rates run later after ahead)))))
 
 (defun numerics-radau-accept (run observer)
   "The step stands; the status in which RUN ends with it, or nil."
@@ -177,8 +188,11 @@
     (replace (numerics-radau-run-before run) (numerics-radau-run-after run))
     (cond ((eq said :stop) :stopped)
           ((numerics-radau-run-last run) :end)
-          ((numerics-radau-calm-p run) :not-stiff)
-          (t (numerics-radau-go-on run)))))
+          (t (numerics-radau-choose-next-step run)
+             (cond ((numerics-radau-calm-p run) :not-stiff)
+                   ((eq said :changed) (numerics-radau-first-slope run))
+                   (t (replace (numerics-radau-run-slope run) (numerics-radau-run-ahead run))
+                      nil))))))
 
 (defun numerics-radau-note-moments (run)
   (numerics-with-radau (run seen moment step controls last)
@@ -189,9 +203,9 @@
         (numerics-advance moment step))
     (replace (numerics-step-to seen) moment)))
 
-(defun numerics-radau-go-on (run)
-  "The slope at the new state, and what is kept for the next step."
-  (numerics-with-radau (run moment before slope step next-step convergence rejected)
+(defun numerics-radau-choose-next-step (run)
+  "And what is kept for it: the factors are, where it would become a little shorter or longer."
+  (numerics-with-radau (run step next-step convergence rejected)
     (let ((next (numerics-radau-limit run (if (and rejected (> (abs next-step) (abs step)))
                                               step
                                               next-step)))
@@ -199,8 +213,5 @@
       (setf (numerics-radau-run-next-step run) next
             (numerics-radau-run-rejected run) nil
             (numerics-radau-run-jacobian run) (if serves :old :none))
-      (unless (and serves (<= 1d0 (/ next step) 1.2d0))
-        (setf (numerics-radau-run-step run) next))
-      (if (numerics-radau-rates run moment before slope)
-          nil
-          :not-finite))))
+      (unless (and serves (<= 0.9d0 (/ next step) 1.2d0))
+        (setf (numerics-radau-run-step run) next)))))

@@ -6,8 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/sparse" "numerics/linear_solver"
-                "numerics/radau_coefficients" "numerics/radau_run"))
+  (core-require "numerics/linear_solver" "numerics/problem" "numerics/radau_coefficients"
+                "numerics/radau_newton" "numerics/radau_run" "numerics/sparse"))
 
 ;;; The error.
 

@@ -124,7 +124,10 @@
         (setf (numerics-radau-run-change run) change)
         (numerics-finite-p change)))))
 
-;;; The iteration.
+;;; The iteration. A small change says nothing by itself: it may be the Jacobian that is too large, and
+;;; the stages what they were guessed to be. So one iteration is enough only where the same Jacobian
+;;; has shown to be that of a linear problem, and changes that stay as they are, not by rounding, are
+;;; refused.
 
 (defun numerics-radau-find-stages (run)
   "Nil where the stages are found, else the factor by which the step must be shorter."
@@ -140,28 +143,51 @@
              (return 0.25d0))
            (let ((factor (and (> k 1) (numerics-radau-watch run k))))
              (when (and factor (not (numerics-radau-serves-p run))) (return factor))
-             (setf (numerics-radau-run-last-change run)
-                   (max (numerics-radau-run-change run) 1d-16))
+             (setf (numerics-radau-run-last-change run) (numerics-radau-run-change run))
+             (replace (numerics-radau-run-previous run) (numerics-radau-run-r1 run))
              (numerics-radau-correct run)
-             (when (or factor (numerics-radau-converged-p run)) (return nil)))
+             (when (or factor (numerics-radau-converged-p run k)) (return nil)))
         finally (return (if (numerics-radau-serves-p run) nil 0.5d0))))
 
-(defun numerics-radau-converged-p (run)
-  (numerics-with-radau (run change remaining newton-goal)
-    (<= (* remaining change) newton-goal)))
+(defparameter *numerics-radau-trust* 8
+  "Steps that one iteration may end after two have shown that the problem is as good as linear.")
+
+(defun numerics-radau-converged-p (run k)
+  (declare (type (integer 0 100) k))
+  (numerics-with-radau (run change remaining newton-goal convergence)
+    (cond ((> (* remaining change) newton-goal) nil)
+          ((> k 1)
+           (setf (numerics-radau-run-trust run)
+                 (if (<= convergence 1d-8) *numerics-radau-trust* 0))
+           t)
+          ((plusp (numerics-radau-run-trust run)) (decf (numerics-radau-run-trust run)) t))))
 
 (defun numerics-radau-serves-p (run)
   "Whether an iteration that rounding holds up, or that is slow, is near enough: a hundredth of the
 tolerance, or three of what is expected to remain."
   (numerics-with-radau (run change remaining convergence)
-    (if (< convergence 0.99d0) (<= (* remaining change) 0.03d0) (<= change 0.01d0))))
+    (if (< convergence 0.99d0)
+        (<= (* remaining change) 0.03d0)
+        (and (<= change 0.01d0) (numerics-radau-by-rounding-p run)))))
+
+(defun numerics-radau-by-rounding-p (run)
+  "Whether the last two changes have no direction in common."
+  (numerics-with-radau (run r1 previous weights)
+    (let ((now (numerics-weighted-size weights r1)))
+      (declare (double-float now))
+      (dotimes (i (length r1)) (decf (aref previous i) (aref r1 i)))
+      (let ((difference (numerics-weighted-size weights previous)))
+        (declare (double-float difference))
+        (or (= now 0d0) (> difference (* 0.5d0 now)))))))
 
 (defun numerics-radau-watch (run k)
   "Notes how the changes shrink at iteration K; the factor for the step where they do not, or not
 fast enough."
   (declare (optimize speed) (type (integer 1 100) k))
   (numerics-with-radau (run change last-change last-ratio)
-    (let* ((ratio (/ (abs change) (abs last-change)))
+    (let* ((ratio (if (= change 0d0)
+                      0d0
+                      (/ (abs change) (max (abs last-change) 1d-300))))
            (convergence (if (= k 2) ratio (sqrt (* ratio (abs last-ratio))))))
       (setf (numerics-radau-run-last-ratio run) ratio
             (numerics-radau-run-convergence run) convergence)

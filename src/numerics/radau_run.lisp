@@ -5,8 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/step_control" "numerics/sparse"
-                "numerics/linear_solver"))
+  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/problem"
+                "numerics/sparse" "numerics/step_control"))
 
 (defmacro numerics-define-radau-run (vectors numbers &rest fields)
   "The structure, its VECTORS of the length of the state, NUMBERS, and other FIELDS."
@@ -18,11 +18,12 @@
 
 (numerics-define-radau-run
  (before after         ; the states at both ends of the step
-  slope                ; X at its beginning
+  slope ahead          ; X there
   scales weights       ; s_i; what makes of an error its share of the tolerance
   z1 z2 z3             ; stages less the state at the beginning
   w1 w2 w3             ; T^-1 of these
   r1 r2 r3             ; right sides, then changes of w1, w2, w3
+  previous             ; r1 of the iteration before
   p1 p2 p3             ; coefficients of the collocation polynomial of the last accepted step
   point error)
  (step                 ; the step that is tried
@@ -49,6 +50,7 @@
  (rejected nil)        ; the last step tried was rejected
  (last nil)            ; the step tried ends at the end of the controls
  (iterations 0 :type fixnum)
+ (trust 0 :type fixnum)          ; steps that may end after one iteration
  (failure nil)         ; :not-finite or :no-convergence where the last step tried had no stages
  (orientation nil)     ; the sign of the determinant of the real system for short steps, if known
  (singular 0 :type fixnum)       ; how often in turn the matrices were singular
@@ -81,7 +83,7 @@
                                 append `((,(intern (format nil "NUMERICS-RADAU-RUN-~a" name) :maxima)
                                           run)
                                          (numerics-zeros n))))))
-      (make slope weights z1 z2 z3 w1 w2 w3 r1 r2 r3 p1 p2 p3 point error))
+      (make slope ahead weights z1 z2 z3 w1 w2 w3 r1 r2 r3 previous p1 p2 p3 point error))
     run))
 
 (declaim (inline numerics-radau-limit))

@@ -8,9 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/step_control" "numerics/sparse"
-                "numerics/null_space" "numerics/linear_solver" "numerics/radau_coefficients"
-                "numerics/radau_run" "numerics/radau_stiffness"))
+  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/null_space"
+                "numerics/problem" "numerics/radau_coefficients" "numerics/radau_run"
+                "numerics/radau_stiffness" "numerics/sparse" "numerics/step_control"))
 
 (defun numerics-radau-begin (run)
   "The status in which RUN ends before its first step, or nil."
@@ -115,6 +115,9 @@ they do not fix it."
   (let ((name (nth i (numerics-problem-names problem))))
     (if name (core-words (list name)) (format nil "x~d" (1+ i)))))
 
+(defun numerics-number-text (x)
+  (string-trim " " (format nil "~,6g" x)))
+
 (defun numerics-largest-index (vector)
   (let ((largest 0))
     (dotimes (i (length vector) largest)
@@ -130,11 +133,11 @@ they do not fix it."
            (changes (numerics-algebraic-changes part)) (i (numerics-largest-index changes)))
       (setf (numerics-radau-run-about run)
             (format nil "the start does not satisfy the algebraic equation ~d, whose residual is ~
-                         ~,3e; ~a = ~,8g would have to be near ~,8g"
+                         ~a; ~a = ~a would have to be near ~a"
                     (numerics-equation-number (nth worst (numerics-algebraic-equations part)))
-                    (aref (numerics-algebraic-residuals part) worst)
-                    (numerics-state-name problem i) (aref before i)
-                    (+ (aref before i) (aref changes i))))
+                    (numerics-number-text (aref (numerics-algebraic-residuals part) worst))
+                    (numerics-state-name problem i) (numerics-number-text (aref before i))
+                    (numerics-number-text (+ (aref before i) (aref changes i)))))
       :inconsistent)))
 
 (defun numerics-radau-say-index (run part)

@@ -35,13 +35,17 @@
 
 #+sbcl
 (defun numerics-compiled-later (plan)
-  (let ((calls *numerics-calls-worth-compiling*))
+  (let ((calls *numerics-calls-worth-compiling*) (compiled nil))
     (declare (fixnum calls))
     (multiple-value-bind (first second) (numerics-machine plan)
-      (declare (function first))
+      (declare (type function first))
       (values
        (lambda (time x out)
-         (when (and (>= calls 0) (< (decf calls) 0))
-           (multiple-value-setq (first second) (numerics-compiled plan)))
+         (when (and (> (decf calls) most-negative-fixnum) (< calls 0) (not compiled))
+           (multiple-value-setq (first second) (numerics-compiled plan))
+           (setq compiled t))
          (funcall first time x out))
-       (and second (lambda (seed out) (funcall (the function second) seed out)))))))
+       (and second
+            (lambda (seed out)
+              (decf calls)
+              (funcall (the function second) seed out)))))))

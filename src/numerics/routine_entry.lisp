@@ -9,8 +9,8 @@
   (core-require "numerics/linear_rows" "numerics/plan" "numerics/problem"))
 
 (defun numerics-entries (plan work slot first second)
-  "Two functions. FIRST and SECOND, functions (x work out), compute in the vector WORK, SLOT gives the
-place of a node in it."
+  "Two functions. FIRST and SECOND, functions (x work out), compute in the vector WORK, SLOT gives
+the place of a node in it."
   (let ((after (numerics-after plan slot)) (states (numerics-plan-states plan))
         (length (numerics-plan-length plan)))
     (if (numerics-plan-seeded plan)
@@ -20,7 +20,7 @@ place of a node in it."
 
 (defun numerics-entry (work compute states after length)
   "LENGTH nil: what is computed gives nothing out yet."
-  (declare (function compute) (fixnum states) (type numerics-vector work))
+  (declare (type function compute) (fixnum states) (type numerics-vector work))
   (lambda (time x out)
     (declare (type numerics-vector time x out) (optimize speed))
     (unless (and (= (length x) states) (or (null length) (= (length out) (the fixnum length))))
@@ -31,7 +31,7 @@ place of a node in it."
     out))
 
 (defun numerics-seed-entry (work compute states after length)
-  (declare (function compute) (fixnum states length) (type numerics-vector work))
+  (declare (type function compute) (fixnum states length) (type numerics-vector work))
   (lambda (seed out)
     (declare (type numerics-vector seed out) (optimize speed))
     (unless (and (= (length seed) states) (= (length out) length)) (numerics-wrong-length))
@@ -56,6 +56,7 @@ place of a node in it."
 (defun numerics-filler (fixed)
   (let ((places (numerics-index-vector (mapcar #'car fixed)))
         (numbers (numerics-double-vector (mapcar #'cdr fixed))))
+    (declare (type numerics-indices places) (type numerics-vector numbers))
     (lambda (x work out)
       (declare (ignore x work) (type numerics-vector out) (optimize speed))
       (dotimes (k (length places))

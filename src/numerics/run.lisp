@@ -8,15 +8,17 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "forms/rates" "numerics/events" "numerics/native"
-                "numerics/observers" "numerics/problem" "numerics/program" "numerics/rates_problem"
-                "numerics/routine" "numerics/run_options"))
+                "algebra/program_nodes" "algebra/program_record" "forms/dynamics"
+                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/events"
+                "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
+                "numerics/projection" "numerics/rates_problem" "numerics/routine"
+                "numerics/run_options"))
 
 (defstruct numerics-simulation
   rates values wishes program problem controls      ; VALUES: ((name . element) ..)
   (moment (numerics-zeros 2) :type numerics-vector) ; the start
   (state (numerics-zeros 0) :type numerics-vector)
-  rows events guards outcome
+  rows events guards constraints outcome
   lost                                              ; (coordinate share) of a pivot that was lost
   (seconds 0d0))                                    ; of the method alone
 
@@ -44,10 +46,32 @@
                    values"
                   open (cdr open) (first open)))))
 
+(defun numerics-run-elements (rates)
+  "What a run computes of RATES."
+  (let ((copy (copy-forms-rates rates)))
+    (setf (forms-rates-inertia copy) '())
+    (forms-rates-elements copy)))
+
+(defun numerics-with-quadratures (rates start)
+  "RATES, among whose states are those cyclic coordinates that the equations START name."
+  (let* ((outputs (forms-rates-outputs rates)) (copy (copy-forms-rates rates))
+         (wanted (loop for name in (forms-rates-cyclic rates)
+                       for slope in (forms-output-list '$quadratures outputs)
+                       when (member name (numerics-items start) :key #'second :test #'alike1)
+                         collect (cons name slope))))
+    (cond ((null wanted) rates)
+          (t (setf (forms-rates-states copy)
+                   (append (forms-rates-states rates) (mapcar #'car wanted))
+                   (forms-rates-outputs copy)
+                   (acons '$rates (cons :list (append (forms-output-list '$rates outputs)
+                                                      (mapcar #'cdr wanted)))
+                          (remove '$rates outputs :key #'car)))
+             copy))))
+
 (defun numerics-new-run (rates values start span wishes)
-  "The run of RATES from START over SPAN, everything checked; VALUES were put in, pairs (name .
-element)."
-  (numerics-check-names rates (forms-rates-elements rates))
+  "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES were
+put in, pairs (name . element)."
+  (numerics-check-names rates (numerics-run-elements rates))
   (destructuring-bind (from to)
       (mapcar (lambda (e) (numerics-double e "an end of the span")) (numerics-read-span span))
     (let* ((program (numerics-program-of rates))
@@ -59,18 +83,34 @@ element)."
                                                        :jacobian nil))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
-            (numerics-simulation-rows run) (numerics-wished-rows run from to)
-            (numerics-simulation-events run) (numerics-wished-events run))
+            (numerics-simulation-constraints run) (numerics-constraints-of rates program))
       (numerics-check-start run)
+      (setf (numerics-simulation-rows run) (numerics-wished-rows run from to)
+            (numerics-simulation-events run) (numerics-wished-events run))
       run)))
 
-(defun numerics-start-vector (rates start)
+(defun numerics-start-values (rates start values)
+  "The exact start values of the states of RATES; velocities and momenta that are not named are 0,
+momenta that have one of VALUES, equations, begin with it."
   (let ((names (forms-rates-states rates)))
-    (map 'numerics-vector
-         (lambda (value name)
-           (numerics-double value (format nil "the start value of ~a" (numerics-name-text name))))
-         (numerics-read-start start names (remove-if #'numerics-velocity-p names))
-         names)))
+    (numerics-check-start-names start names
+                                (mapcar (lambda (name) (list '(%derivative simp) name '$t 1))
+                                        (forms-rates-cyclic rates)))
+    (numerics-read-start
+     start names
+     (lambda (name)
+       (let ((value (find name (numerics-items values) :key #'second :test #'alike1)))
+         (cond ((numerics-velocity-p name) 0)
+               ((member name (forms-rates-momenta rates) :test #'alike1)
+                (if value (third value) 0))
+               (t (core-error "the start value of ~a is missing; add ~:*~a = .. to the start"
+                              (numerics-name-text name)))))))))
+
+(defun numerics-start-vector (rates values)
+  (map 'numerics-vector
+       (lambda (value name)
+         (numerics-double value (format nil "the start value of ~a" (numerics-name-text name))))
+       values (forms-rates-states rates)))
 
 (defun numerics-angle-places (rates)
   (loop for name in (forms-rates-states rates)
@@ -95,7 +135,13 @@ element)."
 
 (defun numerics-wished-rows (run from to)
   (numerics-new-rows (numerics-read-points (numerics-wishes-points (numerics-simulation-wishes run)) from to)
-                     (numerics-simulation-moment run) (numerics-simulation-state run) nil))
+                     (numerics-simulation-moment run) (numerics-simulation-state run)
+                     (numerics-back-to-constraints run)))
+
+(defun numerics-back-to-constraints (run)
+  "The function (moment x) that brings a state between two steps back to the constraints, or nil."
+  (let ((constraints (numerics-simulation-constraints run)))
+    (and constraints (lambda (moment x) (numerics-project constraints moment x)))))
 
 (defun numerics-wished-events (run)
   "What looks for the events, each an expression or an equation; nil for none."
@@ -105,7 +151,8 @@ element)."
       (numerics-new-events
        (numerics-expression-routine run expressions)
        (length (numerics-simulation-state run))
-       (mapcar (constantly 0) expressions) (mapcar (constantly stop) expressions) nil))))
+       (mapcar (constantly 0) expressions) (mapcar (constantly stop) expressions)
+       (numerics-back-to-constraints run)))))
 
 (defun numerics-event-expressions (wishes)
   (let ((events (numerics-wishes-events wishes)))
@@ -132,6 +179,9 @@ element)."
 
 (defun numerics-check-start (run)
   (numerics-check-pivots run (numerics-simulation-moment run) (numerics-simulation-state run))
+  (when (numerics-simulation-constraints run)
+    (numerics-check-constraints (numerics-simulation-constraints run)
+                                (numerics-simulation-moment run) (numerics-simulation-state run)))
   (let ((rates (numerics-zeros (length (numerics-simulation-state run)))))
     (numerics-with-masked-traps
       (funcall (numerics-problem-rates (numerics-simulation-problem run))

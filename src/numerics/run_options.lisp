@@ -16,6 +16,16 @@ methods with a fixed one, or 0."
 
 ;;; Numbers
 
+(defun numerics-short-number (x)
+  "X to six digits, as a person writes it."
+  (flet ((trimmed (text) (string-right-trim "." (string-right-trim "0" text))))
+    (if (or (= x 0d0) (<= 1d-3 (abs x) 1d6))
+        (trimmed (format nil "~,6f" x))
+        (let* ((text (string-downcase (format nil "~,5e" x)))
+               (place (position-if #'alpha-char-p text)))
+          (concatenate 'string (trimmed (subseq text 0 place)) "e"
+                       (string-left-trim "+" (subseq text (1+ place))))))))
+
 (defun numerics-double (e what)
   "The double-float number next to the Maxima constant E; WHAT it is, for the message."
   (let ((value (car (core-attempt (lambda () ($float e))))))
@@ -87,10 +97,10 @@ methods with a fixed one, or 0."
   (cond ((< relative *numerics-least-tolerance*)
          (core-error "a tolerance of ~a is below 1e-13, what double-float numbers can keep; for ~
                       more digits give digits = 30"
-                     (core-words (list relative))))
+                     (numerics-short-number relative)))
         ((> relative 1d-1)
          (core-error "a tolerance of ~a means nothing; give one from 1e-13 to 0.1"
-                     (core-words (list relative))))))
+                     (numerics-short-number relative)))))
 
 (defun numerics-absolute-tolerances (absolute relative names)
   "The list of a_i from what was given, nil, a number or a list of numbers."
@@ -111,24 +121,27 @@ methods with a fixed one, or 0."
 
 (defun numerics-velocity-p (name) (and (consp name) (eq (caar name) '%derivative)))
 
-(defun numerics-read-start (start names required)
-  "The list of exact start values of NAMES from the equations START; of REQUIRED names each must be
-given, the others are 0."
-  (let ((given (numerics-items start)))
-    (dolist (equation given)
-      (unless (and (consp equation) (eq (caar equation) 'mequal))
-        (core-error "the start is a list such as [theta = 1, 'diff(theta,t) = 0], found ~a"
-                    (core-words (list start))))
-      (unless (member (second equation) names :test #'alike1)
-        (numerics-refuse-start-name (second equation) names)))
-    (mapcar (lambda (name)
-              (let ((equation (find name given :key #'second :test #'alike1)))
-                (cond (equation (third equation))
-                      ((member name required :test #'alike1)
-                       (core-error "the start value of ~a is missing; add ~:*~a = .. to the start"
-                                   (core-words (list name))))
-                      (t 0))))
-            names)))
+(defun numerics-read-start (start names default)
+  "The list of exact start values of NAMES from the equations START; DEFAULT, a function of the name,
+gives those that are not named."
+  (dolist (equation (numerics-items start))
+    (unless (and (consp equation) (eq (caar equation) 'mequal))
+      (core-error "the start is a list such as [theta = 1, 'diff(theta,t) = 0], found ~a"
+                  (core-words (list start)))))
+  (loop for name in names
+        for equation = (find name (numerics-items start) :key #'second :test #'alike1)
+        collect (if equation (third equation) (funcall default name))))
+
+(defun numerics-check-start-names (start names quadratures)
+  "An error for a name in START that is none of NAMES; velocities of coordinates that are left to
+QUADRATURES follow from their momenta."
+  (dolist (equation (numerics-items start))
+    (let ((name (second equation)))
+      (cond ((member name names :test #'alike1))
+            ((member name quadratures :test #'alike1)
+             (core-warn "~a follows from its momentum; its start value is not used"
+                        (core-words (list name))))
+            (t (numerics-refuse-start-name name names))))))
 
 (defun numerics-refuse-start-name (name names)
   (let* ((spelled (core-words (list name)))

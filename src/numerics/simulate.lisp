@@ -7,8 +7,9 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates" "numerics/events"
-                "numerics/native" "numerics/observers" "numerics/problem" "numerics/rate_program"
-                "numerics/run" "numerics/run_options"))
+                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/problem"
+                "numerics/projection" "numerics/rate_program" "numerics/run"
+                "numerics/run_options"))
 
 ;;; Methods
 
@@ -51,7 +52,9 @@
 (defun numerics-run-observer (run)
   (numerics-observer
    (remove nil
-           (list (and (numerics-simulation-guards run) (numerics-guard-part run))
+           (list (and (numerics-simulation-constraints run)
+                      (numerics-projection-part (numerics-simulation-constraints run)))
+                 (and (numerics-simulation-guards run) (numerics-guard-part run))
                  (and (numerics-simulation-events run)
                       (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
                  (lambda (step) (numerics-see-rows (numerics-simulation-rows run) step))
@@ -83,26 +86,25 @@
 (defun numerics-trouble (run)
   "Why the RUN did not come to its end, a phrase; nil where it did."
   (let ((outcome (numerics-simulation-outcome run)))
-    (if (numerics-simulation-lost run)
-        (format nil "the mass matrix becomes singular: of the inertia of ~a ~,2g of 1 is left when ~
-                     the bodies beyond it yield"
-                (first (numerics-simulation-lost run)) (second (numerics-simulation-lost run)))
-        (ecase (numerics-outcome-status outcome)
-          ((:end :stopped) nil)
-          (:not-finite "the right-hand side has no finite value there")
-          (:smallest-step "the step became as small as the last place of t: the solution or its ~
-                           right-hand side is singular there")
-          (:no-convergence "the equations of the implicit steps could not be solved")
-          (:most-steps "the most steps that were allowed are made")
-          (:singular "the matrix of the implicit steps is singular")))))
+    (if (and (numerics-simulation-constraints run)
+             (numerics-constraints-singular (numerics-simulation-constraints run)))
+        "the constraints depend on each other there"
+        (and (or (numerics-simulation-lost run)
+                 (not (member (numerics-outcome-status outcome) '(:end :stopped))))
+             (numerics-trouble-of-steps run outcome)))))
 
-(defun numerics-short-number (x)
-  "X to six digits, as a person writes it."
-  (let ((size (abs x)))
-    (string-right-trim
-     "." (if (or (= x 0d0) (<= 1d-3 size 1d6))
-             (string-right-trim "0" (format nil "~,6f" x))
-             (format nil "~,5e" x)))))
+(defun numerics-trouble-of-steps (run outcome)
+  (if (numerics-simulation-lost run)
+      (format nil "the mass matrix becomes singular: of the inertia of ~a ~,2g of 1 is left when ~
+                   the bodies beyond it yield"
+              (first (numerics-simulation-lost run)) (second (numerics-simulation-lost run)))
+      (format nil (ecase (numerics-outcome-status outcome)
+                    (:not-finite "the right-hand side has no finite value there")
+                    (:smallest-step "the step became as small as the last place of t: the solution ~
+                                     or its right-hand side is singular there")
+                    (:no-convergence "the equations of the implicit steps could not be solved")
+                    (:most-steps "the most steps that were allowed are made")
+                    (:singular "the matrix of the implicit steps is singular")))))
 
 (defun numerics-place-text (run)
   "Where the RUN ended: time and state."
@@ -121,7 +123,7 @@
                                  (numerics-place-text run)
                                  (core-words (list (numerics-controls-end
                                                     (numerics-simulation-controls run))))
-                                 (format nil trouble)
+                                 trouble
                                  (numerics-outcome-about (numerics-simulation-outcome run)))))))
 
 (defun numerics-report (run)
@@ -139,6 +141,9 @@
                   (algebra-field '$jacobians (numerics-counts-jacobians counts))
                   (algebra-field '$factorisations (numerics-counts-factorisations counts))
                   (algebra-field '$seconds (numerics-simulation-seconds run)))
+            (when (numerics-simulation-constraints run)
+              (list (algebra-field '$residual (numerics-constraints-largest
+                                               (numerics-simulation-constraints run)))))
             (when (and outcome (numerics-outcome-about outcome))
               (list (algebra-field '$about (numerics-outcome-about outcome))))))))
 
@@ -171,7 +176,9 @@
   "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say."
   (with-algebra-program
     (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
-           (run (numerics-new-run (numerics-run-rates rates pairs nil) pairs start span wishes))
+           (rates (numerics-with-quadratures (numerics-run-rates rates pairs nil) start))
+           (run (numerics-new-run rates pairs (numerics-start-values rates start values) span
+                                  wishes))
            (stop (numerics-carry-out run)))
       (numerics-tell-end run stop)
       (core-report "run" (numerics-report run))
