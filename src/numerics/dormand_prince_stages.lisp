@@ -17,6 +17,7 @@
   (rates #'identity :type function)
   (scales (numerics-zeros 0) :type numerics-vector)
   (relative 0d0 :type double-float)
+  (largest-step 0d0 :type double-float)
   (size 0 :type fixnum)
   (step 0d0 :type double-float)                ; with its sign
   (error 0d0 :type double-float)               ; of the last trial, over the tolerance
@@ -36,6 +37,8 @@
   (slopes (vector) :type simple-vector)        ; by the numbers of the stages
   (dense (vector) :type simple-vector)         ; coefficients of the polynomial, from the second on
   (dense-p nil)                                ; they are those of this step
+  (pace nil)
+  (about nil)                                  ; a sentence on how the run ended
   (seen (make-numerics-step)))                 ; what the observer sees
 
 (defun numerics-new-dopri (problem controls moment state)
@@ -45,6 +48,8 @@
        :problem problem :controls controls :rates (numerics-problem-rates problem) :size n
        :scales (numerics-full-scales controls n)
        :relative (numerics-controls-relative controls)
+       :largest-step (numerics-largest-step controls moment)
+       :pace (make-numerics-pace :moment (copy-seq moment))
        :moment (copy-seq moment) :state (copy-seq state) :next (numerics-zeros n) :low (numerics-zeros n) :next-low (numerics-zeros n)
        :stage (numerics-zeros n) :slopes (vectors 17) :dense (vectors 8)))))
 
