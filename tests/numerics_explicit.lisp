@@ -246,7 +246,7 @@ and gives the parts of the observer."
           (numerics-project constraints (numerics-moment 0d0) x) (numbers-list x))))
 
 (defun $numbers_pendulum (start span tolerance projected times)
-  "The pendulum in the plane, with the largest residual, the drift of its energy, and rows at TIMES."
+  "The pendulum in the plane: the largest residual, the drift of its energy, rows at TIMES."
   (let ((constraints (numbers-constraints '($l) '($length $length_rate $length_row) nil))
         (drifts nil) (rows nil) (left 0d0))
     (flet ((look (step)

@@ -74,7 +74,7 @@
         collect (cons stage (- (orders-weight row stage) (orders-weight other stage)))))
 
 (defun orders-largest (row order goal)
-  "The largest residual of the conditions of ORDER; GOAL times 1/density is what the sums should be."
+  "The largest residual of the conditions of ORDER: the sums should be GOAL over the density."
   (coerce (loop for tree in (orders-trees order)
                 maximize (abs (- (orders-sum row tree) (/ goal (orders-density tree)))))
           'double-float))
@@ -100,7 +100,7 @@
           'double-float))
 
 (defun $orders_rounding ()
-  "The largest relative difference of a coefficient and its double-float number, over the last place."
+  "The largest relative difference of a coefficient and its double-float number, in last places."
   (loop for row in (append (mapcar #'cdr *numerics-dopri-stages*)
                            *numerics-dopri-errors* *numerics-dopri-dense*
                            (list (map 'list (lambda (node) (cons 0 node)) *numerics-dopri-nodes*)))

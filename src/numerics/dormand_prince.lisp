@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Integration by the explicit method of order 8 by Dormand and Prince with steps of its own choice:
-;;; the control of steps and the test of stiffness of Hairer's code dop853.f (E. Hairer, S. P.
-;;; Norsett, G. Wanner, Solving Ordinary Differential Equations I, section II.5), in the norm of the
-;;; controls. The slope at the new state is the first of the next step. A trial that is not finite is
-;;; taken again with a shorter step. Look first at numerics-dopri.
+;;; Integration by the explicit method of order 8 by Dormand and Prince with steps of its own
+;;; choice: the control of steps and the test of stiffness of Hairer's code dop853.f (E. Hairer,
+;;; S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, section II.5), in the norm
+;;; of the controls. The slope at the new state is the first of the next step. A trial that is not
+;;; finite is taken again with a shorter step. Look first at numerics-dopri.
 
 (in-package :maxima)
 
@@ -12,7 +12,7 @@
 
 (defun numerics-dopri (problem controls moment state observer)
   "Integrates PROBLEM, x' = X(t, x), from STATE at MOMENT; an outcome."
-  (let ((run (numerics-new-dopri problem controls moment state)))
+  (let ((run (numerics-new-dopri-run problem controls moment state)))
     (numerics-dopri-show run)
     (loop for status = (numerics-dopri-begin run)
             then (or (numerics-dopri-limit run) (numerics-dopri-step-on run observer))
@@ -126,8 +126,8 @@
     nil))
 
 (defun numerics-dopri-choose-step (run)
-  "The next step of RUN: not longer right after a trial that failed, and as long as it was before the
-end made it shorter."
+  "The next step of RUN: not longer right after a trial that failed, and as long as it was before
+the end made it shorter."
   (let* ((step (numerics-dopri-step run)) (full (abs (numerics-dopri-full-step run)))
          (factor (numerics-dopri-factor (numerics-dopri-error run)))
          (next (* (abs step) (if (numerics-dopri-rejected-p run) (min 1d0 factor) factor))))

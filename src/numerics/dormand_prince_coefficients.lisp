@@ -13,8 +13,9 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defun numerics-decimals (row)
     "((stage digits) ..) with rational numbers."
-    (loop for (stage digits) in row collect (cons stage (numerics-decimal digits))))
+    (loop for (stage digits) in row collect (cons stage (numerics-decimal digits)))))
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *numerics-dopri-nodes*
     (map 'vector #'numerics-decimal
          '("0" "0.0526001519587677318785587544488"
@@ -23,8 +24,9 @@
            "0.307692307692307692307692307692" "0.651282051282051282051282051282" "0.6"
            "0.857142857142857142857142857142" "1" "1" "0.1" "0.2"
            "0.777777777777777777777777777778"))
-    "c_1, .. of x(t + c_i h).")
+    "c_1, .. of x(t + c_i h)."))
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *numerics-dopri-stages*
     (mapcar
      (lambda (row) (cons (car row) (numerics-decimals (cdr row))))
@@ -72,8 +74,9 @@
           (7 "7.68342119606259904184240953878") (8 "4.06898981839711007970213554331")
           (9 "0.356727187455281109270669543021") (13 "-0.00139902416515901462129418009734")
           (14 "2.9475147891527723389556272149") (15 "-9.15095847217987001081870187138"))))
-    "(i (j . a_ij) ..).")
+    "(i (j . a_ij) ..)."))
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *numerics-dopri-errors*
     (mapcar
      #'numerics-decimals
@@ -83,8 +86,9 @@
         (11 "0.08192320648511571246570742613") (12 "-0.02235530786388629525884427845"))
        ((1 "0.244094488188976377952755905512") (9 "0.733846688281611857341361741547")
         (12 "0.0220588235294117647058823529412"))))
-    "The estimator of order 5, and what the weights of the method less that of order 3 are.")
+    "The estimator of order 5, and what the weights of the method less that of order 3 are."))
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *numerics-dopri-dense*
     (mapcar
      #'numerics-decimals
@@ -112,8 +116,9 @@
         (11 "104.09964950896230045147246184") (12 "29.840293426660503123344363579")
         (13 "-43.533456590011143754432175058") (14 "96.3245539591882829483949506")
         (15 "-39.177261675615439165231486172") (16 "-149.72683625798562581422125276"))))
-    "Coefficients of the dense output from the fifth on.")
+    "Coefficients of the dense output from the fifth on."))
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
   (defun numerics-dopri-weights (kind number)
     "((stage . weight) ..) of the stage, the error or the coefficient of the dense output NUMBER."
     (ecase kind

@@ -4,8 +4,8 @@
 ;;; linear in the velocities alone), the least change of q and then of v, measured by M, solves
 ;;;     ( M  G^T ) (change)   (    0    )
 ;;;     ( G   0  ) (force )  = (-residual)
-;;; twice, as Newton's method does (E. Hairer, G. Wanner, Solving Ordinary Differential Equations II,
-;;; section VII.2). A constraint that follows from others is left out and named.
+;;; twice, as Newton's method does (E. Hairer, G. Wanner, Solving Ordinary Differential Equations
+;;; II, section VII.2). A constraint that follows from others is left out and named.
 
 (in-package :maxima)
 
@@ -58,10 +58,12 @@ MATRIX gives G by rows, those of Phi first; MASS, nil for the identity, gives M 
              (numerics-constraints-kept constraints)))
 
 (defun numerics-change-states (constraints moment x kept start)
-  "Changes the states from the place START on so that the residuals KEPT vanish; nil where the system
-is singular."
-  (let ((system (numerics-constraints-system constraints)) (size (numerics-constraints-size constraints))
-        (rows (numerics-constraints-rows constraints)) (residuals (numerics-constraints-residuals constraints)))
+  "Changes the states from the place START on so that the residuals KEPT vanish; nil where the
+system is singular."
+  (let ((system (numerics-constraints-system constraints))
+        (size (numerics-constraints-size constraints))
+        (rows (numerics-constraints-rows constraints))
+        (residuals (numerics-constraints-residuals constraints)))
     (funcall (numerics-constraints-matrix constraints) moment x rows)
     (numerics-set-bordered system size (numerics-constraints-weights constraints) rows kept)
     (loop for i in kept

@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What methods with steps of their own choice share: the scales of the norm, the time that is left,
-;;; the smallest step, and the first one. The first step is Hairer's (E. Hairer, S. P. Norsett, G.
-;;; Wanner, Solving Ordinary Differential Equations I, section II.4), made independent of the unit of
-;;; time, and guarded where a start at rest tells little: it grows from a short trial there, and its
-;;; own estimate of the error decides whether it stands.
+;;; What methods with steps of their own choice share: the scales of the norm, the time that is
+;;; left, the smallest step, whether the end can be reached, and the first step. It is Hairer's
+;;; (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, section II.4),
+;;; made independent of the unit of time, and guarded where a start at rest tells little: it grows
+;;; from a short trial there, and its own estimate of the error decides whether it stands.
 
 (in-package :maxima)
 
@@ -27,8 +27,8 @@
   (max 1d-290 (* 1d-31 (abs (aref moment 0)))))
 
 (defun numerics-largest-step (controls moment)
-  "Of a run from MOMENT: what is given, or a tenth of the span, so that nothing is stepped over where
-the motion begins at rest."
+  "Of a run from MOMENT: what is given, or a tenth of the span, so that nothing is stepped over
+where the motion begins at rest."
   (or (numerics-controls-largest-step controls)
       (* 0.1d0 (abs (numerics-time-left controls moment)))))
 
