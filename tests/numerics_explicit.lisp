@@ -219,15 +219,15 @@ and gives the parts of the observer."
 (define-numbers-problem $two_rates (x y u v)
   (* 2 (+ (* x u) (* y v))) (* 2 x (+ (* x u) (* y v))))
 (define-numbers-problem $two_rows (x y) (* 2 x) (* 2 y) (* 2 x x) (* 2 x y))
-(define-numbers-problem $masses (x) 1d0 0d0 0d0 4d0)
+(define-numbers-problem $length_direction (x y) (* 2 x) (/ y 2)) ; masses 1 and 4
 (define-numbers-problem $plane_energy (x y u v)
   (+ (/ (+ (* u u) (* v v)) 2) (* 10d0 y)) (+ (/ (+ (* u u) (* v v)) 2) (abs (* 10d0 y))))
 
 (defun numbers-constraints (names functions masses)
   (flet ((named (name) (gethash name *numbers-problems*)))
-    (numerics-new-constraints (if (member '$length functions) 1 2) names
-                              (named (first functions)) (named (second functions))
-                              (named (third functions)) (and masses (named '$masses)) 2)))
+    (numerics-new-constraints names (length names) (named (first functions))
+                              (named (second functions)) (named (third functions))
+                              (and masses (named '$length_direction)))))
 
 (defun $numbers_projected (state masses)
   "[residual, state] of the pendulum brought back to its length."

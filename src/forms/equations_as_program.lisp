@@ -94,7 +94,7 @@
 ;;; Constraints f_j(q,t) = 0 or g_j = sum a_ji q_i' + a_j = 0. The rate of f_j is such a g_j; the
 ;;; rate of g_j must vanish, too: b_j = -(rate of g_j at q'' = 0).
 
-(defstruct forms-bond row right value) ; the elements a_ji, b_j and f_j or g_j
+(defstruct forms-bond row right value rate) ; the elements a_ji, b_j, f_j or g_j, and g_j
 
 (defun forms-program-bonds (holonomic nonholonomic places velocities)
   "The bonds of elements f_j and g_j; PLACES and VELOCITIES are nodes."
@@ -107,7 +107,7 @@
            collect (forms-program-bond g g (algebra-program-gradient g velocities) rates)))))
 
 (defun forms-program-bond (value g row rates)
-  (make-forms-bond :value value :row row
+  (make-forms-bond :value value :rate g :row row
                    :right (algebra-program-negate (first (algebra-program-rates (list g) rates)))))
 
 (defun forms-program-product (u v)
@@ -146,6 +146,9 @@
   (mapcar (lambda (x y) (algebra-program-add x (algebra-program-multiply factor y)))
           vector direction))
 
+(defparameter *forms-dependent-constraints*
+  "the constraints depend on each other: their multipliers do not follow from the equations")
+
 (defun forms-program-multipliers (free columns bonds)
   (forms-program-solution
    (loop for bond in bonds
@@ -154,7 +157,7 @@
    (loop for bond in bonds
          collect (algebra-program-subtract
                   (forms-bond-right bond) (forms-program-product (forms-bond-row bond) free)))
-   "the constraints depend on each other: their multipliers do not follow from the equations"))
+   *forms-dependent-constraints*))
 
 (defun forms-inverse-outputs (forces bonds multipliers)
   "FORCES less the reactions, MULTIPLIERS being elements, and the constraints themselves."

@@ -10,8 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/composite_bodies" "forms/equations_as_program" "linmodel/motions"
-                "linmodel/arithmetic" "linmodel/twists"))
+  (core-require "linmodel/composite_bodies" "forms/equations_as_program" "forms/program_judge"
+                "linmodel/motions" "linmodel/arithmetic" "linmodel/twists"))
 
 (defun linmodel-articulated-p (joints)
   "Whether every velocity belongs to one link."
@@ -19,10 +19,13 @@
                        when joint append (mapcar #'car (linmodel-joint-twists joint)))))
     (= (length indices) (length (remove-duplicates indices)))))
 
-(defstruct linmodel-articulation twists columns inverse drive) ; s, U, D^-1, u
+(defstruct linmodel-articulation twists columns rows inverse drive) ; s, U, D, D^-1, u
 
 (defun linmodel-accelerations (a joints loads forces n)
-  "q'' under FORCES; LOADS are those of the motion without q''."
+  "q'' under FORCES; LOADS are those of the motion without q'', which are spent."
+  (linmodel-accelerations-outwards a joints (linmodel-articulations a joints loads forces) n))
+
+(defun linmodel-articulations (a joints loads forces)
   (let ((inertias (linmodel-own-inertias a joints))
         (articulations (make-array (length joints))))
     (linmodel-inwards
@@ -41,7 +44,7 @@
                   a (aref loads parent)
                   (linmodel-carried-load
                    a joint (linmodel-yielding-load a articulation (aref loads k)))))))))
-    (linmodel-accelerations-outwards a joints articulations n)))
+    articulations))
 
 (defun linmodel-articulation (a joint inertia load forces)
   (let* ((twists (linmodel-joint-twists joint))
@@ -51,11 +54,43 @@
                      collect (loop for column in columns
                                    collect (linmodel-dot a (linmodel-six twist) column)))))
     (make-linmodel-articulation
-     :twists twists :columns columns
+     :twists twists :columns columns :rows rows
      :inverse (and twists (linmodel-inverse-rows rows))
      :drive (loop for (i . twist) in twists
                   collect (linmodel-plus a (nth (1- i) forces)
                                          (linmodel-minus a (linmodel-load-along a twist load)))))))
+
+;;; Pivots: those of each D, and beside them s.(I s) with I of all bodies beyond the joint locked.
+
+(defun linmodel-articulated-pivots (a joints loads forces)
+  "((i pivot . whole) ..) for the velocities i, from 1."
+  (let ((articulations (linmodel-articulations a joints loads forces))
+        (locked (linmodel-locked-inertias a joints)))
+    (loop for k from 1 below (length joints)
+          for articulation = (aref articulations k)
+          append (linmodel-joint-pivots a articulation (aref locked k)))))
+
+(defun linmodel-joint-pivots (a articulation locked)
+  (let ((twists (linmodel-articulation-twists articulation)))
+    (when twists
+      (let ((factors (forms-program-factors (linmodel-articulation-rows articulation)
+                                            *forms-singular-mass*)))
+        (loop for (i . twist) in twists
+              for j from 0
+              for six = (linmodel-six twist)
+              collect (list* i (aref factors j j)
+                             (linmodel-dot a six (linmodel-matrix-times a locked six))))))))
+
+(defun linmodel-locked-inertias (a joints)
+  (let ((inertias (linmodel-own-inertias a joints)))
+    (linmodel-inwards
+     joints
+     (lambda (k joint parent)
+       (when (> parent 0)
+         (setf (aref inertias parent)
+               (linmodel-rows-plus a (aref inertias parent)
+                                   (linmodel-carried-inertia a joint (aref inertias k)))))))
+    inertias))
 
 (defun linmodel-inverse-rows (rows)
   (let ((n (length rows)))

@@ -9,7 +9,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "linmodel/articulated_bodies" "linmodel/kinetic" "linmodel/energy_value"
-                "forms/equations_as_program" "forms/program_judge" "algebra/program_nodes"
+                "forms/dynamics" "forms/equations_as_program" "forms/program_judge" "algebra/program_nodes"
                 "linmodel/twists" "linmodel/arithmetic" "forms/value"
                 "linmodel/composite_bodies" "linmodel/motions"
                 "algebra/program_from_expressions" "algebra/program_derivative"
@@ -73,29 +73,56 @@
        (forms-inverse-outputs
         (mapcar #'algebra-program-subtract (linmodel-tree-bias tree) (linmodel-tree-given tree))
         bonds (mapcar #'algebra-program-input (forms-task-multipliers task))))
-      ($solved (if (linmodel-articulated-p (linmodel-tree-joints tree))
-                   (linmodel-articulated-outputs tree bonds)
-                   (linmodel-factored-outputs tree bonds)))
+      ($solved (linmodel-solved-outputs (linmodel-solver tree) bonds))
       ($mass (forms-mass-outputs (linmodel-tree-rows tree) (linmodel-right-sides tree) bonds)))))
 
-(defun linmodel-articulated-outputs (tree bonds)
+;;; M q'' = f solved.
+
+(defstruct linmodel-solver
+  free    ; the accelerations without constraints
+  solve   ; a function of forces: the accelerations that these alone give
+  guards) ; a function that gives the list of (coordinate pivot . whole): see forms-rates
+
+(defun linmodel-solver (tree)
+  (if (linmodel-articulated-p (linmodel-tree-joints tree))
+      (linmodel-articulated-solver tree)
+      (linmodel-factored-solver tree)))
+
+(defun linmodel-solved-outputs (solver bonds)
+  (forms-solved-outputs (linmodel-solver-free solver) (linmodel-solver-solve solver) bonds))
+
+(defun linmodel-articulated-solver (tree)
   (let ((a (linmodel-tree-arithmetic tree)) (joints (linmodel-tree-joints tree)))
     (flet ((solve (forces loads)
              (linmodel-accelerations a joints loads forces (linmodel-tree-size tree))))
-      (forms-solved-outputs
-       (solve (linmodel-tree-given tree)
-              (linmodel-bias-loads a joints (linmodel-motions a joints (linmodel-tree-state tree)
-                                                              (linmodel-tree-gravity tree))))
-       (lambda (forces) (solve forces (linmodel-no-loads joints)))
-       bonds))))
+      (make-linmodel-solver
+       :free (solve (linmodel-tree-given tree)
+                    (linmodel-bias-loads
+                     a joints (linmodel-motions a joints (linmodel-tree-state tree)
+                                                (linmodel-tree-gravity tree))))
+       :solve (lambda (forces) (solve forces (linmodel-no-loads joints)))
+       :guards (lambda () (linmodel-articulated-guards tree))))))
+
+(defun linmodel-articulated-guards (tree)
+  (let ((joints (linmodel-tree-joints tree))
+        (names (linmodel-state-names (linmodel-tree-state tree))))
+    (loop for (i . guard) in (linmodel-articulated-pivots
+                              (linmodel-tree-arithmetic tree) joints
+                              (linmodel-no-loads joints) (mapcar (constantly 0) names))
+          collect (cons (nth (1- i) names) guard))))
 
 (defun linmodel-no-loads (joints)
   (make-array (length joints) :initial-element (linmodel-no-load)))
 
-(defun linmodel-factored-outputs (tree bonds)
-  (let ((factors (forms-program-factors (linmodel-tree-rows tree) *forms-singular-mass*)))
+(defun linmodel-factored-solver (tree)
+  (let* ((rows (linmodel-tree-rows tree))
+         (factors (forms-program-factors rows *forms-singular-mass*)))
     (flet ((solve (forces) (forms-program-solution-by factors forces)))
-      (forms-solved-outputs (solve (linmodel-right-sides tree)) #'solve bonds))))
+      (make-linmodel-solver
+       :free (solve (linmodel-right-sides tree)) :solve #'solve
+       :guards (lambda ()
+                 (forms-pivot-guards (linmodel-state-names (linmodel-tree-state tree)) factors
+                                     (forms-diagonal rows)))))))
 
 (defun linmodel-program-judge (scene actions v)
   (destructuring-bind (potential dissipation forces) (cdr actions)

@@ -82,6 +82,23 @@
        "linmodel/programs" "linmodel_lagrange_program"
        (append *linmodel-program-inputs* '("equation_options")))
 
+;;; Rates of a run
+
+(apply #'core-rule "rates" '("mechanical") "linmodel/rates_of_scenes" "linmodel_scene_rates"
+       *linmodel-program-inputs*)
+(apply #'core-rule "routh_rates" '("mechanical") "linmodel/rates_of_scenes" "linmodel_routh_rates"
+       (append *linmodel-program-inputs* '(("cyclic" $auto))))
+(apply #'core-rule "hamilton_rates" '("mechanical") "linmodel/rates_of_scenes"
+       "linmodel_hamilton_rates" *linmodel-program-inputs*)
+(core-rule-same-as "rates" '("mechanical") "routh_rates" :given '("function" $routh))
+(core-rule-same-as "rates" '("mechanical") "hamilton_rates" :given '("function" $hamilton))
+(loop for (name function . more) in '(("rates" "forms_lagrange_rates")
+                                      ("routh_rates" "forms_routh_rates" ("cyclic" $auto) "momenta")
+                                      ("hamilton_rates" "forms_hamilton_rates" "momenta"))
+      do (apply #'core-rule-given '(:edited "Lagrangian") name '("mechanical")
+                "forms/rates_of_systems" function "Lagrangian" "coordinates" "actions"
+                '("laws" ((mlist simp))) more))
+
 ;;; Equations in quasi-velocities
 
 (core-public "EulerPoisson" :kinds '("mechanical"))

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The method that chooses: explicit steps until stability binds them and no longer accuracy (the
 ;;; test of stiffness of E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section
-;;; IV.2), then implicit ones until the motion is no longer stiff, and so on. Where there is a mass
-;;; matrix all steps are implicit.
+;;; IV.2), then implicit ones until the motion is no longer stiff, and so on. Where there is a
+;;; mass matrix all steps are implicit, where there is no Jacobian explicit.
 
 (in-package :maxima)
 
@@ -12,7 +12,9 @@
 (defun numerics-automatic-controls (problem controls implicit step)
   "A copy of CONTROLS, with the same counts, for the next method and its first STEP."
   (let ((copy (copy-numerics-controls controls)))
-    (setf (numerics-controls-looks-for copy) (cond ((numerics-problem-mass problem) nil)
+    (setf (numerics-controls-looks-for copy) (cond ((or (numerics-problem-mass problem)
+                                                       (null (numerics-problem-jacobian problem)))
+                                                   nil)
                                                    (implicit :end-of-stiffness)
                                                    (t :stiffness))
           (numerics-controls-first-step copy) step)

@@ -157,7 +157,7 @@ zero at the sample K itself was met before it.)"
   (let* ((function (numerics-event-function events step place))
          (begin (aref (numerics-step-from step) 0)) (end (aref (numerics-step-to step) 0))
          (last-place (* double-float-epsilon (max (abs begin) (abs end)))))
-    (numerics-root function
+    (numerics-zero-between function
                    (if (zerop (funcall function from)) (+ from (/ 1024d0)) from)
                    to
                    (max 1d-16 (/ last-place (max (abs (- end begin)) (* 1d4 last-place)

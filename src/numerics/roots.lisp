@@ -20,7 +20,7 @@
            (* (/ (- c a) (- b a)) (/ fa (- fc fa)) (/ fb (- fc fb))))
         0.5d0)))
 
-(defun numerics-root (function from to tolerance)
+(defun numerics-zero-between (function from to tolerance)
   "The end nearer to TO of a piece, no longer than TOLERANCE, of the way FROM .. TO on which
 FUNCTION leaves the sign that it has at FROM."
   (declare (double-float from to tolerance) (type function function))

@@ -1,45 +1,43 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Small full systems, bordered ones above all: rows are scaled by their largest entry, then
-;;; eliminated with partial pivoting (Golub & Van Loan: Matrix Computations, section 3.4). And which
-;;; rows of a matrix follow from those before them, by modified Gram-Schmidt (section 5.2).
+;;; Small full systems: rows are scaled by their largest entry, then eliminated with partial pivoting
+;;; (Golub & Van Loan: Matrix Computations, section 3.4). And which rows of a matrix follow from those
+;;; before them, by modified Gram-Schmidt (section 5.2).
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/problem"))
 
-(defstruct numerics-bordered
+(defstruct numerics-small-system
   (order 0 :type fixnum)                                ; of the system that is set
   (entries (numerics-zeros 0) :type numerics-vector)    ; by rows
   (right (numerics-zeros 0) :type numerics-vector))     ; the right side, then the solution
 
-(defun numerics-new-bordered (most)
+(defun numerics-new-small-system (most)
   "A system of an order up to MOST."
-  (make-numerics-bordered :entries (numerics-zeros (* most most)) :right (numerics-zeros most)))
+  (make-numerics-small-system :entries (numerics-zeros (* most most)) :right (numerics-zeros most)))
 
-(defun numerics-set-bordered (system size inner rows kept)
-  "SYSTEM becomes INNER, a matrix of SIZE by rows, bordered by those of ROWS that are KEPT, with the
-right side 0."
-  (declare (type numerics-vector inner rows) (fixnum size))
-  (let* ((order (+ size (length kept))) (entries (numerics-bordered-entries system)))
-    (declare (fixnum order))
-    (setf (numerics-bordered-order system) order)
-    (fill entries 0d0)
-    (fill (numerics-bordered-right system) 0d0)
-    (dotimes (i size)
-      (replace entries inner :start1 (* i order) :start2 (* i size) :end2 (* (1+ i) size)))
+(defun numerics-set-products (system rows columns size kept)
+  "SYSTEM becomes ROWS times COLUMNS, both vectors of SIZE after vectors of SIZE, those that are KEPT."
+  (declare (type numerics-vector rows columns) (fixnum size))
+  (let ((order (length kept)) (entries (numerics-small-system-entries system)))
+    (setf (numerics-small-system-order system) order)
     (loop for row of-type fixnum in kept
-          for place of-type fixnum from size
-          do (dotimes (j size)
-               (let ((entry (aref rows (+ j (* row size)))))
-                 (setf (aref entries (+ j (* place order))) entry
-                       (aref entries (+ place (* j order))) entry))))
+          for i of-type fixnum from 0
+          do (loop for column of-type fixnum in kept
+                   for j of-type fixnum from 0
+                   do (let ((sum 0d0))
+                        (declare (double-float sum))
+                        (dotimes (k size)
+                          (incf sum (* (aref rows (+ k (* row size)))
+                                       (aref columns (+ k (* column size))))))
+                        (setf (aref entries (+ j (* i order))) sum))))
     system))
 
 (defun numerics-scale-rows (system)
   "Each row by its largest entry; whether there is one in every row."
-  (let ((n (numerics-bordered-order system)) (entries (numerics-bordered-entries system))
-        (right (numerics-bordered-right system)))
+  (let ((n (numerics-small-system-order system)) (entries (numerics-small-system-entries system))
+        (right (numerics-small-system-right system)))
     (dotimes (i n t)
       (let ((largest (loop for j below n maximize (abs (aref entries (+ j (* i n)))))))
         (unless (> largest 0d0) (return nil))
@@ -65,15 +63,15 @@ right side 0."
                               (* factor (aref entries (+ j (the fixnum (* k n)))))))
                (decf (aref right i) (* factor (aref right k)))))))
 
-(defun numerics-solve-bordered (system)
+(defun numerics-solve-small-system (system)
   "The solution of SYSTEM, whose entries it uses up; nil where it is singular."
-  (let ((n (numerics-bordered-order system)) (entries (numerics-bordered-entries system))
-        (right (numerics-bordered-right system)))
+  (let ((n (numerics-small-system-order system)) (entries (numerics-small-system-entries system))
+        (right (numerics-small-system-right system)))
     (when (numerics-scale-rows system)
       (dotimes (k n)
         (let ((row (numerics-pivot-row entries n k)))
           (unless (> (abs (aref entries (+ k (* row n)))) 1d-14)
-            (return-from numerics-solve-bordered nil))
+            (return-from numerics-solve-small-system nil))
           (unless (= row k)
             (dotimes (j n) (rotatef (aref entries (+ j (* k n))) (aref entries (+ j (* row n)))))
             (rotatef (aref right k) (aref right row))))
