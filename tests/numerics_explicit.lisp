@@ -269,3 +269,26 @@ and gives the parts of the observer."
                         '$drift (first (numerics-relative-drifts drifts))
                         '$kept (numerics-constraints-largest constraints)
                         '$rows (numbers-rows rows))))))
+
+;;; The method that chooses
+
+(define-numbers-problem $van_der_pol_slopes (x v)
+  0d0 (- (* -2d3 x v) 1d0) 1d0 (* 1d3 (- 1d0 (* x x))))
+(define-numbers-problem $stiff_for_a_while (x)
+  (- (- (sin time)) (* (numbers-stiffness time) (- x (cos time)))))
+(define-numbers-problem $stiff_for_a_while_slopes (x) (- (numbers-stiffness time)))
+
+(defun numbers-stiffness (time) (+ 1d0 (* 1d5 (exp (- (expt (- time 7d0) 4))))))
+
+(defun $numbers_automatic (name slopes start span tolerance)
+  "A run by the method that chooses, with the Jacobian SLOPES by columns; false: without one."
+  (let* ((state (numbers-vector start)) (span (numbers-vector span))
+         (controls (numbers-controls (aref span 1) tolerance '()))
+         (problem (funcall (numbers-problem name) (length state))))
+    (when slopes (setf (numerics-problem-jacobian problem) (gethash slopes *numbers-problems*)))
+    (let ((outcome (numerics-with-masked-traps
+                     (numerics-automatic problem controls (numerics-moment (aref span 0)) state
+                                         (constantly nil))))
+          (counts (numerics-controls-counts controls)))
+      (numbers-result outcome counts '$jacobians (numerics-counts-jacobians counts)
+                      '$about (numerics-outcome-about outcome)))))

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/dormand_prince" "numerics/radau"))
+  (core-require "numerics/decimals" "numerics/dormand_prince" "numerics/problem"
+                "numerics/radau"))
 
 (defun numerics-automatic-controls (problem controls implicit step)
   "A copy of CONTROLS, with the same counts, for the next method and its first STEP."
@@ -22,11 +23,12 @@
 
 (defun numerics-changes-text (times)
   "What is said of changes between the methods at TIMES."
-  (format nil "explicit steps~{, ~a ones from t = ~,4g~}~[~:;; ~:*~d changes in all~]"
+  (format nil "explicit steps~{, ~a ones from t = ~a~}~[~:;; ~:*~d changes in all~]"
           (loop for time in times
                 for implicit = t then (not implicit)
                 repeat 4
-                append (list (if implicit "implicit" "explicit") time))
+                append (list (if implicit "implicit" "explicit")
+                             (numerics-short-number time)))
           (if (> (length times) 4) (length times) 0)))
 
 (defun numerics-automatic (problem controls moment state observer)

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem"))
+  (core-require "numerics/decimals" "numerics/problem"))
 
 (defun numerics-observer (parts)
   "One observer that asks all of PARTS, functions of the step, in their order."
@@ -139,6 +139,6 @@ are 0."
     (lambda (step)
       (when (>= (incf steps) 1000)
         (setq steps 0)
-        (core-progress "t = ~,4g of ~,4g" (aref (numerics-step-to step) 0)
-                       (numerics-controls-end controls)))
+        (core-progress "t = ~a of ~a" (numerics-short-number (aref (numerics-step-to step) 0))
+                       (numerics-short-number (numerics-controls-end controls))))
       nil)))

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem"))
+  (core-require "numerics/decimals" "numerics/problem"))
 
 (declaim (inline numerics-scale numerics-time-left numerics-smallest-step))
 
@@ -70,7 +70,8 @@ where the motion begins at rest."
       (setf (numerics-pace-steps pace) 0)
       (replace (numerics-pace-moment pace) moment)
       (when (> steps *numerics-hopeless-steps*)
-        (format nil "at the pace of the last steps the end is ~,0e steps away" steps)))))
+        (format nil "at the pace of the last steps the end is ~a steps away"
+                (numerics-short-number steps))))))
 
 ;;; The first step
 
