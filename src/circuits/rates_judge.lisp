@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/elements" "circuits/graph" "circuits/element_laws" "circuits/rates"
+  (core-require "circuits/elements" "circuits/graph" "circuits/element_laws" "circuits/rates_by_branches"
                 "circuits/tree" "forms/agreement" "forms/fixed" "forms/judge"
                 "forms/program_judge" "forms/value"))
 

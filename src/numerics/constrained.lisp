@@ -7,7 +7,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "forms/rates" "numerics/decimals" "numerics/native"
-                "numerics/problem" "numerics/program" "numerics/projection" "numerics/routine"
+                "numerics/problem" "numerics/program" "numerics/back_to_constraints" "numerics/routine"
                 "numerics/run_options"))
 
 (defparameter *numerics-largest-start-residual* 1d-6

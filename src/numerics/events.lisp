@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/roots"))
+  (core-require "numerics/problem" "numerics/zeros_between"))
 
 (defparameter *numerics-touch* 1d-14
   "A value is 0, as far as rounding tells, below this share of the largest one in the step.")
