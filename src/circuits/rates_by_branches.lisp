@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_derivative" "algebra/program_from_expressions"
+  (core-require "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "circuits/elements"
                 "circuits/element_laws" "forms/sparse_elimination"))
 

@@ -7,8 +7,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "forms/rates" "numerics/decimals" "numerics/native"
-                "numerics/problem" "numerics/program" "numerics/back_to_constraints" "numerics/routine"
-                "numerics/run_options"))
+                "numerics/problem" "numerics/program" "numerics/back_to_constraints" "numerics/routine"))
 
 (defparameter *numerics-largest-start-residual* 1d-6
   "Off a constraint by more than this a start is refused, by less it is brought back.")

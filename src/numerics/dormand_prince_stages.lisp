@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/dormand_prince" "numerics/dormand_prince_coefficients"
+  (core-require "numerics/dormand_prince_coefficients"
                 "numerics/problem" "numerics/step_control"))
 
 (defstruct (numerics-dopri-run (:conc-name numerics-dopri-))
