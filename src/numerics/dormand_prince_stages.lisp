@@ -1,22 +1,23 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; One step of the explicit method of order 8 by Dormand and Prince: its slopes, its new state with
 ;;; the two estimates of the error, and the state between, by a polynomial of degree 7 that takes
-;;; three slopes more (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I,
-;;; sections II.5 and II.6; code dop853.f). What a step adds to the state keeps the part that rounding
-;;; takes from it, for the next step.
+;;; three slopes more (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations
+;;; I, sections II.5 and II.6; code dop853.f). What a step adds to the state keeps the part that
+;;; rounding takes from it, for the next step.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/dormand_prince" "numerics/dormand_prince_coefficients"
+  (core-require "numerics/dormand_prince_coefficients"
                 "numerics/problem" "numerics/step_control"))
 
-(defstruct numerics-dopri
+(defstruct (numerics-dopri-run (:conc-name numerics-dopri-))
   "A run under way."
   problem controls
   (rates #'identity :type function)
   (scales (numerics-zeros 0) :type numerics-vector)
   (relative 0d0 :type double-float)
+  (largest-step 0d0 :type double-float)
   (size 0 :type fixnum)
   (step 0d0 :type double-float)                ; with its sign
   (error 0d0 :type double-float)               ; of the last trial, over the tolerance
@@ -36,17 +37,22 @@
   (slopes (vector) :type simple-vector)        ; by the numbers of the stages
   (dense (vector) :type simple-vector)         ; coefficients of the polynomial, from the second on
   (dense-p nil)                                ; they are those of this step
+  (pace nil)
+  (about nil)                                  ; a sentence on how the run ended
   (seen (make-numerics-step)))                 ; what the observer sees
 
-(defun numerics-new-dopri (problem controls moment state)
+(defun numerics-new-dopri-run (problem controls moment state)
   (let ((n (numerics-problem-size problem)))
     (flet ((vectors (count) (coerce (loop repeat count collect (numerics-zeros n)) 'simple-vector)))
-      (make-numerics-dopri
+      (make-numerics-dopri-run
        :problem problem :controls controls :rates (numerics-problem-rates problem) :size n
        :scales (numerics-full-scales controls n)
        :relative (numerics-controls-relative controls)
-       :moment (copy-seq moment) :state (copy-seq state) :next (numerics-zeros n) :low (numerics-zeros n) :next-low (numerics-zeros n)
-       :stage (numerics-zeros n) :slopes (vectors 17) :dense (vectors 8)))))
+       :largest-step (numerics-largest-step controls moment)
+       :pace (make-numerics-pace :moment (copy-seq moment))
+       :moment (copy-seq moment) :state (copy-seq state) :next (numerics-zeros n)
+       :low (numerics-zeros n) :next-low (numerics-zeros n) :stage (numerics-zeros n)
+       :slopes (vectors 17) :dense (vectors 8)))))
 
 ;;; Slopes
 

@@ -1,9 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Elimination with partial pivoting, real, and complex with the imaginary parts apart (Golub & Van
-;;; Loan: Matrix Computations, sections 3.4 and 4.3). One code serves full and banded matrices: the
-;;; entry of row i and column j stands at i + j*stride + offset, and is no zero only where
-;;; -upper-lower <= i - j <= lower (the exchanges of rows widen the upper band). Rows are exchanged
-;;; column by column as the elimination reaches them; what is 0 in the row of the pivot costs nothing.
+;;; Elimination with partial pivoting, real, and complex with the imaginary parts apart (Golub &
+;;; Van Loan: Matrix Computations, sections 3.4 and 4.3). One code serves full and banded
+;;; matrices: the entry of row i and column j stands at i + j*stride + offset, and is no zero only
+;;; where -upper-lower <= i - j <= lower (the exchanges of rows widen the upper band). Rows are
+;;; exchanged column by column as the elimination reaches them; what is 0 in the row of the pivot
+;;; costs nothing.
 
 (in-package :maxima)
 
@@ -26,8 +27,9 @@
        (declare (inline place))
        ,@body)))
 
-;;; Kernels: n numbers of X from the place FROM on, FACTOR times, are taken from those of Y from TO on.
-;;; All places lie within the columns, so nothing is checked; four numbers a turn take half the time.
+;;; Kernels: n numbers of X from the place FROM on, FACTOR times, are taken from those of Y from
+;;; TO on. All places lie within the columns, so nothing is checked; four numbers a turn take half
+;;; the time.
 
 (defmacro numerics-subtract-multiple (n factor x from y to)
   `(let ((count ,n) (p ,from) (q ,to) (factor ,factor))

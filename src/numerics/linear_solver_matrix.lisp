@@ -1,14 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The matrices that implicit methods solve with: s*M - J with a number s, real or complex, a constant
-;;; sparse mass matrix M (or the identity) and a sparse Jacobian J. Where each entry stands in the
-;;; storage of a solver is found once; after that a matrix is made by two sweeps over the entries.
+;;; The matrices that implicit methods solve with: s*M - J with a number s, real or complex, a
+;;; constant sparse mass matrix M (or the identity) and a sparse Jacobian J. Where each entry
+;;; stands in the storage of a solver is found once; after that a matrix is made by two sweeps
+;;; over the entries.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/problem"))
 
-(defun numerics-index-zeros (n) (make-array n :element-type '(unsigned-byte 32) :initial-element 0))
+(defun numerics-index-zeros (n)
+  (make-array n :element-type '(unsigned-byte 32) :initial-element 0))
 
 (defstruct numerics-solver
   kind                   ; :dense, :banded or :klu
@@ -23,7 +25,7 @@
   (pattern nil)          ; of M and J together
   (places (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; of its entries,
   (rows (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*)))   ; their rows
-  (columns (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; and columns there
+  (columns (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; and columns
   (jacobian-places (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*)))
   (mass-places (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*)))
   (mass (numerics-zeros 0) :type (simple-array double-float (*)))
@@ -31,7 +33,7 @@
   (row-sizes (numerics-zeros 0) :type (simple-array double-float (*)))    ; largest entries
   (column-sizes (numerics-zeros 0) :type (simple-array double-float (*)))
   (pivots (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*)))
-  (row-order (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; after exchanges
+  (row-order (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; exchanged
   (order (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; place -> unknown
   (work (numerics-zeros 0) :type (simple-array double-float (*)))
   (work-imaginary (numerics-zeros 0) :type (simple-array double-float (*)))
@@ -143,8 +145,8 @@
     (dotimes (k (length jacobian-places) solver)
       (decf (aref real (aref jacobian-places k)) (aref jacobian k)))))
 
-;;; When a pivot is nothing but rounding: it is compared with the smaller of the largest entries that
-;;; its row and its column had before the elimination.
+;;; When a pivot is nothing but rounding: it is compared with the smaller of the largest entries
+;;; that its row and its column had before the elimination.
 
 (defun numerics-measure-entries (solver)
   (declare (optimize speed))
@@ -167,7 +169,7 @@
 
 (declaim (inline numerics-no-pivot-p))
 (defun numerics-no-pivot-p (solver magnitude k)
-  "Whether MAGNITUDE, of the pivot in column K and the row that stands there now, is rounding alone."
+  "Whether MAGNITUDE, of the pivot in column K, is rounding alone."
   (declare (double-float magnitude) (fixnum k))
   (let ((row (aref (numerics-solver-row-order solver) k)))
     (not (> magnitude (* 2.2d-16 (numerics-solver-size solver)

@@ -1,12 +1,12 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a run of Radau IIA holds between its steps, and what every part of it does with vectors. All
-;;; vectors are made once; a step changes them in place.
+;;; What a run of Radau IIA holds between its steps, and what every part of it does with vectors.
+;;; All vectors are made once; a step changes them in place.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/problem"
-                "numerics/sparse" "numerics/step_control"))
+  (core-require "numerics/problem" "numerics/step_control" "numerics/linear_solver_matrix"
+                "numerics/linear_solver"))
 
 (defmacro numerics-define-radau-run (vectors numbers &rest fields)
   "The structure, its VECTORS of the length of the state, NUMBERS, and other FIELDS."
@@ -58,11 +58,14 @@
  direction             ; of the power iterations for the radius, nil where it is not asked for
  about)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defun numerics-radau-reader (field)
+    (intern (format nil "NUMERICS-RADAU-RUN-~a" field) :maxima)))
+
 (defmacro numerics-with-radau ((run &rest fields) &body body)
   "BODY with the values of FIELDS of RUN under their names."
   `(let ,(loop for field in fields
-               collect `(,field (,(intern (format nil "NUMERICS-RADAU-RUN-~a" field) :maxima)
-                                 ,run)))
+               collect `(,field (,(numerics-radau-reader field) ,run)))
      ,@body))
 
 (defun numerics-new-radau (problem controls moment state)
@@ -80,9 +83,10 @@
                :newton-goal (numerics-newton-goal (numerics-controls-relative controls)))))
     (macrolet ((make (&rest names)
                  `(setf ,@(loop for name in names
-                                append `((,(intern (format nil "NUMERICS-RADAU-RUN-~a" name) :maxima)
-                                          run)
+                                append `((,(numerics-radau-reader name) run)
                                          (numerics-zeros n))))))
+      (setf (numerics-radau-run-about run)
+            (numerics-solver-remark (numerics-radau-run-single run)))
       (make slope ahead weights z1 z2 z3 w1 w2 w3 r1 r2 r3 previous p1 p2 p3 point error))
     run))
 
