@@ -6,10 +6,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates" "numerics/events"
-                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/problem"
-                "numerics/projection" "numerics/rate_program" "numerics/run"
-                "numerics/run_options"))
+  (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates"
+                "numerics/decimals" "numerics/events" "numerics/jacobian" "numerics/native"
+                "numerics/observers" "numerics/problem" "numerics/back_to_constraints"
+                "numerics/rate_program" "numerics/run" "numerics/run_options"))
 
 ;;; Methods
 
