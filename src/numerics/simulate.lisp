@@ -103,6 +103,7 @@
                     (:smallest-step "the step became as small as the last place of t: the solution ~
                                      or its right-hand side is singular there")
                     (:no-convergence "the equations of the implicit steps could not be solved")
+                    (:inconsistent "the algebraic equations do not hold there")
                     (:most-steps "the most steps that were allowed are made")
                     (:singular "the matrix of the implicit steps is singular")))))
 
