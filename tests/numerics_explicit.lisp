@@ -174,6 +174,8 @@ and gives the parts of the observer."
 (define-numbers-problem $clock (x v) (- time 0.125d0) (- time 0.25d0))
 (define-numbers-problem $wave (x v) (+ 0.999999d0 (sin (* 40d0 time))))
 (define-numbers-problem $still (x v) (* 0d0 x))
+(define-numbers-problem $poles (x v) ; tan t; sqrt(x) - 1/2, for x >= 0 only; a switch at t = 3
+  (numbers-quotient (sin time) (cos time)) (- (numbers-root x) 0.5d0) (if (< time 3d0) -1d0 1d0))
 
 (defun numbers-event (event)
   (list '(mlist simp) (1+ (numerics-event-place event)) (numerics-event-direction event)

@@ -182,18 +182,30 @@ zero at the sample K itself was met before it.)"
     (unless (zerop side)
       (list (list share place (if (= after side) 0 (- side)))))))
 
+(defun numerics-crossing-after (events step place k direction)
+  "The crossing between the sample K and the next; none where the function has a pole."
+  (let* ((share (numerics-crossing events step place (/ k 16d0) (/ (1+ k) 16d0)))
+         (value (aref (numerics-events-at events step share) place)))
+    (when (<= (abs value) (max (abs (numerics-sample events place k))
+                               (abs (numerics-sample events place (1+ k)))))
+      (list (list share place direction)))))
+
 (defun numerics-zeros-after (events step place k)
-  "Zeros of the function PLACE after the sample K up to the next; its new side is noted."
-  (let ((side (svref (numerics-events-sides events) place))
-        (new (numerics-side (numerics-sample events place (1+ k)))))
-    (cond ((zerop new) (numerics-zero-at events step place side (1+ k)))
+  "Zeros of the function PLACE after the sample K up to the next; its new side is noted. Where it has
+no value there is no zero, and it begins anew after that."
+  (let* ((sides (numerics-events-sides events)) (side (svref sides place))
+         (here (numerics-sample events place k)) (there (numerics-sample events place (1+ k)))
+         (new (numerics-side there)))
+    (cond ((not (and (numerics-finite-p here) (numerics-finite-p there)))
+           (setf (svref sides place) (if (numerics-finite-p there) new 0))
+           nil)
+          ((zerop new) (numerics-zero-at events step place side (1+ k)))
           ((= new side)
            (when (numerics-may-dip-p events place side k)
              (numerics-dip events step place side k)))
-          (t (setf (svref (numerics-events-sides events) place) new)
+          (t (setf (svref sides place) new)
              (unless (zerop side)
-               (list (list (numerics-crossing events step place (/ k 16d0) (/ (1+ k) 16d0))
-                           place new)))))))
+               (numerics-crossing-after events step place k new))))))
 
 (defun numerics-wanted-zeros (events step)
   "Zeros in STEP in the order of time, of the wanted directions."
