@@ -10,12 +10,12 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"))
 
-(defparameter *algebra-longest-constant* 200 "Binary digits of a constant that is worked out.")
+(defparameter *algebra-exchanged-constant* 200 "Binary digits of a constant that is worked out.")
 
 (defun algebra-exchanged (elements exchange &optional (fault #'algebra-fault-division))
   "ELEMENTS in the current program; EXCHANGE gives the element for the name of an input, FAULT is
 called on a denominator of ELEMENTS that became 0."
-  (let ((new (make-hash-table)))
+  (let ((new (make-hash-table)) (*algebra-longest-constant* *algebra-exchanged-constant*))
     (flet ((now (element)
              (if (algebra-node-p element) (gethash (algebra-node-index element) new) element)))
       (dolist (node (algebra-live-nodes elements))
@@ -33,23 +33,13 @@ called on a denominator of ELEMENTS that became 0."
   (core-error "a program divides by zero"))
 
 (defun algebra-rebuilt (operation x y)
-  "The node of OPERATION on X and Y, or what it is for these."
+  "The node of OPERATION on X and Y, or what it is for these. (A product of two numbers would be
+taken for a multiple of the second.)"
   (let ((found (and (numberp x) (numberp y) (algebra-constant-value operation x y))))
-    (cond (found (if (algebra-short-p found) found (algebra-make-node operation x y)))
-          ((and (eq operation :multiply) (algebra-long-product-p x y))
-           (algebra-make-node operation x y))
-          (t (algebra-operation operation x y)))))
-
-(defun algebra-short-p (number)
-  (<= (max (integer-length (numerator number)) (integer-length (denominator number)))
-      *algebra-longest-constant*))
-
-(defun algebra-long-product-p (x y)
-  "Whether the constants of X and Y, one of them a constant, would make a long one."
-  (flet ((constant (element)
-           (cond ((numberp element) element)
-                 ((algebra-scaled-p element) (algebra-node-left element)))))
-    (and (numberp x) (constant y) (not (algebra-short-p (* x (constant y)))))))
+    (cond ((null found) (algebra-operation operation x y))
+          ((algebra-short-p found) found)
+          ((eq operation :multiply) (algebra-make-node :divide x (/ y)))
+          (t (algebra-make-node operation x y)))))
 
 (defun algebra-constant-value (operation x y)
   "The rational value of OPERATION on numbers, or nil."

@@ -47,7 +47,7 @@
            (funcall (algebra-language-number language)
                     (rational (algebra-input-value (algebra-node-left node) '() nil))))
           (t (core-error "~a is not among the inputs of the program"
-                         (mfuncall '$string (algebra-node-left node)))))))
+                         (core-words (list (algebra-node-left node))))))))
 
 (defun algebra-exported-assignments (language computed elements places)
   "The lines of all assignments, those of the outputs last."
@@ -164,7 +164,7 @@
 (defun $algebra_export (record file language replace)
   "Writes RECORD to FILE and returns the name of the file."
   (unless (stringp file)
-    (core-error "the second argument is the name of a file, found ~a" (mfuncall '$string file)))
+    (core-error "the second argument is the name of a file, found ~a" (core-words (list file))))
   (algebra-check-new-file file replace)
   (let ((language (algebra-language-named language)))
     (with-algebra-program

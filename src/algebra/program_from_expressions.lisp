@@ -1,12 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Straight-line programs from expressions: each operator of an expression by the operations of
 ;;; program_nodes.lisp; what is no input, number, or sum, product, power or function of such is
-;;; refused. Which nodes an output needs, in which order.
+;;; refused. Which nodes an output needs, in which order. Branches are sums with factors 0 and 1:
+;;; see program_branches.lisp.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/program_nodes"))
+  (core-require "algebra/size" "algebra/program_branches" "algebra/program_nodes"))
 
 ;;; From expressions.
 
@@ -52,6 +53,8 @@
       (($atan2 %atan2) (algebra-program-polar-angle (part) (funcall element (third e))))
       ($max (algebra-converted-extreme (mapcar element (cdr e)) 1))
       ($min (algebra-converted-extreme (mapcar element (cdr e)) -1))
+      ($unit_step (algebra-program-positive (part)))
+      ($piecewise (algebra-converted-pieces e element))
       (%derivative (algebra-derivative-input e))
       (t (algebra-converted-function e element)))))
 
@@ -70,7 +73,7 @@
 (defun algebra-refuse-program (e)
   (core-error "~a has no place in a program, ~
                which adds, multiplies, divides, takes powers and elementary functions~a"
-              (mfuncall '$string e)
+              (core-words (list e))
               (if (char= (char (string (caar e)) 0) #\$)
                   (format nil "; give ~a a formula in laws" (core-spelling (caar e)))
                   "")))

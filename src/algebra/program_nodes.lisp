@@ -50,6 +50,14 @@
 
 ;;; Arithmetic.
 
+(defvar *algebra-longest-constant* nil
+  "Binary digits of the longest constant that is worked out; nil where there is no limit.")
+
+(defun algebra-short-p (number)
+  (or (null *algebra-longest-constant*)
+      (<= (max (integer-length (numerator number)) (integer-length (denominator number)))
+          *algebra-longest-constant*)))
+
 (defun algebra-program-negate (x)
   (cond ((numberp x) (- x))
         ((algebra-operation-p :negate x) (algebra-node-left x))
@@ -91,7 +99,7 @@
          (algebra-program-negate (algebra-program-multiply x (algebra-node-left y))))
         ((algebra-operation-p :negate x)
          (algebra-program-negate (algebra-program-multiply (algebra-node-left x) y)))
-        ((and (numberp x) (algebra-scaled-p y))
+        ((and (numberp x) (algebra-scaled-p y) (algebra-short-p (* x (algebra-node-left y))))
          (algebra-program-multiply (* x (algebra-node-left y)) (algebra-node-right y)))
         ((numberp x) (algebra-make-node :multiply x y))
         ((algebra-scaled-p y)

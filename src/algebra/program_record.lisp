@@ -69,7 +69,7 @@
     (cond (number (if exactly number (coerce number 'double-float)))
           ((and (eq name '$%pi) (not exactly)) (coerce pi 'double-float))
           ((and (eq name '$%e) (not exactly)) (exp 1d0))
-          (t (core-error "the point has no value for ~a" (mfuncall '$string name))))))
+          (t (core-error "the point has no value for ~a" (core-words (list name)))))))
 
 ;;; A turn is (cosine . sine) of an angle.
 
@@ -97,7 +97,7 @@
   (let ((cosine (algebra-at-point (list '(%cos simp) name) point))
         (sine (algebra-at-point (list '(%sin simp) name) point)))
     (unless (and cosine sine)
-      (core-error "the point has no sine and cosine of ~a" (mfuncall '$string name)))
+      (core-error "the point has no sine and cosine of ~a" (core-words (list name))))
     (cons cosine sine)))
 
 (defun algebra-turned-back (turn) (cons (car turn) (- (cdr turn))))
@@ -119,7 +119,7 @@
 (defun algebra-output-elements (value)
   (cond ((or (numberp value) (algebra-node-p value)) (list value))
         ((eq (car value) :list) (cdr value))
-        (t (apply #'append (cdr value)))))
+        (t (loop for row in (cdr value) append row))))
 
 (defun algebra-all-outputs (outputs)
   (loop for (nil . value) in outputs append (algebra-output-elements value)))
@@ -278,7 +278,7 @@
                         (cond ((floatp value) (rational value))
                               ((algebra-rational-number value))
                               (t (core-error "a value is a number, found ~a"
-                                             (mfuncall '$string value))))))))
+                                             (core-words (list value)))))))))
 
 (defun algebra-evaluated-program (record point exactly)
   (with-algebra-program

@@ -48,6 +48,7 @@ and always have values."
     (:rates archive-as-system "a list of equations such as ['diff(x,t) = y, 'diff(y,t) = -x]")
     (:integrals archive-as-integrals "a list of integrals such as [V0 = x^2 + y^2]")
     (:branches archive-as-branches "a list such as [i1 = L1, i2 = L2]")
+    (:interval archive-as-interval "a span of time, such as [t, 0, 10]")
     (:square archive-as-square "a matrix, such as matrix([1, 0], [0, 2])"))
   "As *archive-types*, for what is typed in the session: velocities are 'diff(q,t), names may have
 subscripts, and a formula may stand for a law of its own.")
@@ -57,11 +58,12 @@ subscripts, and a formula may stand for a law of its own.")
     (:shape "expression" "f" "g")
     (:variables "coordinates" "variables")
     (:variable "lambda" "u")
-    (:motion "motion")
+    (:motion "motion" "start")
     (:solution "solution")
     (:rates "equations")
     (:integrals "integrals")
     (:branches "inductances" "capacitances")
+    (:interval "time")
     (:vanishing "within" "manifold")
     (:square "A" "M" "S" "W" "D" "G" "P"))
   "Arguments by their types; of the others the type is that of the key of [system].")
@@ -156,6 +158,12 @@ functions and a matrix to others."
 (defun archive-as-integrals (value)
   (dolist (item (archive-items value))
     (archive-formula-inside (if (archive-equation-p item) (third item) item))))
+
+(defun archive-as-interval (value)
+  "Two ends, after the name of the time or without it."
+  (let ((items (archive-items value)))
+    (unless (= (length (if (eq (first items) '$t) (cdr items) items)) 2) (archive-unfit))
+    (mapc #'archive-formula-inside items)))
 
 (defun archive-as-branches (value)
   "Names of currents or voltages with their inductances or capacitances."

@@ -13,6 +13,7 @@
 (defstruct archive-derived
   value
   (checks '()) (left-out '()) (warnings '())   ; newest first
+  (report '())                                 ; (key . value) that stand with it, newest first
   (level '$canonical))
 
 (defparameter *archive-kept-most* 8)
@@ -23,11 +24,12 @@
   "The archive-derived of RULE's pure function applied to INPUTS, of which SAID, a list of
 archive-derived, was said before."
   (let ((*core-checks* '()) (*core-left-out* '()) (*core-level* '$canonical)
-        (*core-warnings-now* '()))
+        (*core-warnings-now* '()) (*core-report* '()))
     (mapc #'archive-say-again said)
     (let ((value (core-apply-rule rule inputs)))
       (make-archive-derived :value value :checks *core-checks* :left-out *core-left-out*
-                            :warnings *core-warnings-now* :level *core-level*))))
+                            :warnings *core-warnings-now* :level *core-level*
+                            :report *core-report*))))
 
 (defun archive-say-again (derived)
   "Repeats what was said when a part was DERIVED; a warning once in a call."

@@ -15,7 +15,7 @@
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-place* nil) (*core-warnings* '())
         (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
-        (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*))
+        (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*) (*core-partial* nil))
     (setq arguments (archive-arguments-taken arguments)
           *core-cheaper* (archive-cheaper name arguments)
           *core-size* (archive-size-factor arguments))
@@ -181,6 +181,7 @@ none."
                   (let ((target (core-public-name (archive-call-public call))))
                     (prog1 (archive-own-lists
                             (archive-abbreviated call (archive-value call target)))
-                      (archive-save-steps call))))))
+                      (archive-save-steps call)
+                      (when *core-partial* (core-signal *core-partial*)))))))
 
 (setq *core-dispatcher* #'archive-dispatch)

@@ -171,9 +171,10 @@ neglected in a field."
              (archive-check-option name (caddr equation))
              (when (and (string= name "form") (eq (caddr equation) '$program))
                (archive-check-program-form call)))
-    (archive-give-all call (loop for equation in options
-                                 for name in names
-                                 collect (cons name (caddr equation))))
+    (archive-give-all call (archive-numbers-over-values
+                            call (loop for equation in options
+                                       for name in names
+                                       collect (cons name (caddr equation)))))
     (archive-check-effects call names))
   (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil)))
 
@@ -206,6 +207,27 @@ to the rule only."
   "What is assumed of parameters in a call on expressions."
   (archive-check-argument "parameters" value (archive-call-kind call))
   (setf (archive-call-facts call) (remove-if-not #'archive-relation-p (cdr value))))
+
+;;; A run takes numbers: parameters = [m = 2] beside the values of the archive
+
+(defun archive-numbers-p (pair)
+  "Whether PAIR, (name . value), gives numbers to parameters."
+  (and (string= (car pair) "parameters") (archive-list-p (cdr pair)) (cddr pair)
+       (every #'archive-equation-p (cddr pair))))
+
+(defun archive-numbers-over-values (call pairs)
+  "PAIRS where numbers given to parameters of a run stand in `values', over those of the archive."
+  (let ((numbers (find-if #'archive-numbers-p pairs)))
+    (if (and numbers (core-public-numerical (archive-call-public call)))
+        (let* ((values (or (cdr (assoc "values" pairs :test #'string=))
+                           (archive-key-value call "values")))
+               (kept (remove-if (lambda (equation)
+                                  (member (second equation) (archive-lefts (cdr numbers))))
+                                (cdr values))))
+          (acons "values" (archive-list (append kept (cddr numbers)))
+                 (remove-if (lambda (pair) (or (eq pair numbers) (string= (car pair) "values")))
+                            pairs)))
+        pairs)))
 
 ;;; Keys that are overruled
 

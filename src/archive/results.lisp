@@ -190,9 +190,13 @@ doubles."
 
 (defstruct archive-step
   "A result to be written: its NAME and VALUE, the digest FROM what it was computed, its OPTIONS as
-text, its FORM, CHECKS and LEFT-OUT as texts, ABBREVIATIONS it is written in; whether the call
-PASSED it only, on the way to another."
-  name value from (options "") form checks left-out abbreviations passed)
+text, its FORM, CHECKS and LEFT-OUT as texts, ABBREVIATIONS it is written in, a REPORT of keys that
+are no part of it; whether the call PASSED it only, on the way to another."
+  name value from (options "") form checks left-out abbreviations report passed)
+
+(defun archive-partial-p (section)
+  "Whether SECTION holds a part only of what was asked for."
+  (and (archive-find-entry section "partial") t))
 
 (defun archive-result-lines (step)
   "The lines of STEP below its header, without the last line end."
@@ -201,13 +205,16 @@ PASSED it only, on the way to another."
         (options (archive-step-options step)) (checks (archive-step-checks step))
         (left-out (archive-step-left-out step)) (abbreviations (archive-step-abbreviations step)))
     (format nil "from = ~a~%own = ~a~%~@[options = ~a~%~]~@[form = ~a~%~]~@[check = ~a~%~]~
-                 ~@[left_out = ~a~%~]~@[abbreviations = ~a~%~]~{~a~^~%~}"
+                 ~@[left_out = ~a~%~]~@[abbreviations = ~a~%~]~{~a~%~}~{~a~^~%~}"
             (archive-step-from step) (archive-own-digest parts)
             (and (string/= options "") (archive-spell options))
             (archive-step-form step)
             (and checks (archive-note-text checks))
             (and left-out (archive-note-text left-out))
             (and abbreviations (archive-spell (archive-list abbreviations)))
+            (loop for (key . value) in (archive-step-report step)
+                  collect (format nil "~a = ~a" key
+                                  (archive-value-text value (+ 3 (length key)) t)))
             (loop for (key . text) in parts collect (format nil "~a = ~a" key text)))))
 
 (defun archive-save (archive steps &optional elsewhere)

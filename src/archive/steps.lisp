@@ -108,10 +108,12 @@
     (when edited (push (format nil "~a edited ~a" name edited) (archive-need-extras need)))))
 
 (defun archive-own-section (call name)
-  "The section with the result NAME of this call's arguments and options, or nil."
+  "The section with the whole result NAME of this call's arguments and options, or nil."
   (and (archive-call-archive call) (archive-path (archive-call-archive call))
        (gethash name *core-publics*)
-       (archive-stored-section (archive-call-archive call) name (archive-options-of call name))))
+       (let ((section (archive-stored-section (archive-call-archive call) name
+                                              (archive-options-of call name))))
+         (and section (not (archive-partial-p section)) section))))
 
 (defun archive-edited-extra-p (extra) (search " edited sha256:" extra))
 
@@ -308,6 +310,7 @@ where there is only one."
              :options (archive-options-of call name) :form form
              :checks (reverse (archive-derived-checks derived))
              :left-out (reverse (archive-derived-left-out derived))
+             :report (reverse (archive-derived-report derived))
              :abbreviations (unless (equal short value) (archive-abbreviations call)))
             (archive-call-new call)))))
 

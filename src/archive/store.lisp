@@ -20,7 +20,7 @@
 (defparameter *archive-most-slots* 8 "The most results of one function in an archive.")
 
 (defparameter *archive-result-keys*
-  '("from" "own" "options" "form" "check" "left_out" "abbreviations" "partial")
+  '("from" "own" "options" "form" "check" "left_out" "abbreviations" "run" "partial")
   "Keys of a result section that are no part of its value.")
 
 ;;; The value of a section, and whether a person changed it

@@ -40,6 +40,15 @@
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
 
+;;; Rates of a run; where a potential is given, by its equations; Routh's and Hamilton's forms of a
+;;; linear circuit are those in loop charges
+
+(core-rule "rates" '("circuit") "circuits/rates_of_circuits" "circuits_circuit_rates" "circuit")
+(core-rule-given "potential" "rates" '("circuit") "forms/rates_of_systems" "forms_equation_rates"
+  "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
+(core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))
+(core-rule-same-as "rates" '("circuit") "hamilton_rates" :given '("function" $hamilton))
+
 ;;; Linear circuits have Lagrange's function, and with it every form of equations: in loop charges
 
 (core-public "LoopLagrangian" :kinds '("circuit"))

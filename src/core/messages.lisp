@@ -10,6 +10,9 @@
   "Function of section and key: their place, such as \"pendulum.txt, line 14\", or nil.")
 (defvar *core-checks* nil "How the result was checked, newest first.")
 (defvar *core-left-out* nil "What the result leaves out, newest first.")
+(defvar *core-report* '() "What else is to stand with the result: (key . value), newest first.")
+(defvar *core-partial* nil
+  "The sentence in which the call ends once its result, which is not whole, has been saved.")
 (defvar *core-level* '$canonical
   "The form of an answer where that is left to the derivation: factored once a part was too long.")
 (defvar *core-progress* t "Whether progress lines are wanted.")
@@ -109,6 +112,16 @@
 (defun $core_left_out (&rest items)
   (pushnew (core-words items) *core-left-out* :test #'string=)
   '$done)
+
+(defun core-report (key value)
+  "VALUE stands under KEY, a string, in the section of the result; it is no part of it."
+  (push (cons key value) *core-report*))
+
+(defun core-partial (control &rest arguments)
+  "The result is only a part of what was asked: it is saved as such, and the call ends in an error
+with this sentence."
+  (core-report "partial" t)
+  (setq *core-partial* (apply #'format nil control arguments)))
 
 (defun core-factored () (setq *core-level* '$factored))
 

@@ -146,6 +146,9 @@
   (mapcar (lambda (x y) (algebra-program-add x (algebra-program-multiply factor y)))
           vector direction))
 
+(defparameter *forms-dependent-constraints*
+  "the constraints depend on each other: their multipliers do not follow from the equations")
+
 (defun forms-program-multipliers (free columns bonds)
   (forms-program-solution
    (loop for bond in bonds
@@ -154,7 +157,7 @@
    (loop for bond in bonds
          collect (algebra-program-subtract
                   (forms-bond-right bond) (forms-program-product (forms-bond-row bond) free)))
-   "the constraints depend on each other: their multipliers do not follow from the equations"))
+   *forms-dependent-constraints*))
 
 (defun forms-inverse-outputs (forces bonds multipliers)
   "FORCES less the reactions, MULTIPLIERS being elements, and the constraints themselves."

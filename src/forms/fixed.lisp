@@ -74,6 +74,11 @@
 
 ;;; Elimination.
 
+(defun forms-transposed (rows)
+  (loop while (first rows)
+        collect (mapcar #'car rows)
+        do (setq rows (mapcar #'cdr rows))))
+
 (defparameter *forms-least-pivot* (forms-fixed (expt 10 -60))
   "What is smaller in a column of rows of rank less than full is rounding.")
 

@@ -13,7 +13,7 @@
   "True for a function of the user: nothing in Maxima says what it is."
   (and (symbolp operator)
        (char= (char (string operator) 0) #\$)
-       (not (member operator '($matrix $piecewise)))
+       (not (member operator '($matrix $piecewise $unit_step)))
        (not (or (get operator 'operators) (get operator 'grad)
                 (mget operator 'mexpr) (fboundp operator)))))
 

@@ -6,28 +6,50 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes"
-                "algebra/program_record"))
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions"
+                "algebra/program_nodes" "algebra/program_record"))
 
 (core-record forms-rates
   "PROGRAM is what the elements belong to. STATES and PAIRS, (inside . outside), are names; the
 OUTPUTS ((name . value) ..) have X as `rates'. MASS: nil for the identity, else a sparse row
 ((j . element) ..) for each state, j from 0. A guard is (name pivot . whole): a pivot of a
 factorisation, what is divided by, and the size that it is of where it is not small. SPLIT: nil, or
-the number n where x = (q, v), q' = v."
-  program states pairs outputs (mass nil) (guards nil) (angles nil) (split nil))
+the number n where x = (q, v), q' = v. CYCLIC: coordinates whose velocities are the output
+`quadratures'; MOMENTA: those of the states that are parameters in other forms. INERTIA: elements
+that depend on states that are no velocities, or on the time, where M does."
+  program states pairs outputs (mass nil) (guards nil) (angles nil) (split nil) (cyclic nil)
+  (momenta nil) (inertia nil))
 
 (defun forms-rates-elements (rates)
   "All elements of RATES."
   (append (algebra-all-outputs (forms-rates-outputs rates))
           (loop for row in (forms-rates-mass rates) append (mapcar #'cdr row))
           (loop for (nil pivot . whole) in (forms-rates-guards rates)
-                append (list pivot whole))))
+                append (list pivot whole))
+          (forms-rates-inertia rates)))
 
-(defun forms-rates-inside (name rates)
-  "What the state or velocity NAME is called in the program."
-  (let ((pair (rassoc name (forms-rates-pairs rates) :test #'alike1)))
-    (if pair (car pair) name)))
+(defun forms-exchanged-rates (rates exchange fault)
+  "RATES in the current program, with EXCHANGE and FAULT as algebra-exchanged takes them."
+  (let ((copy (copy-forms-rates rates))
+        (found (algebra-exchanged (forms-rates-elements rates) exchange fault)))
+    (flet ((next (element) (declare (ignore element)) (pop found)))
+      (setf (forms-rates-program copy) *algebra-program*
+            (forms-rates-outputs copy) (forms-mapped-outputs #'next (forms-rates-outputs rates))
+            (forms-rates-mass copy) (loop for row in (forms-rates-mass rates)
+                                          collect (loop for (j . element) in row
+                                                        collect (cons j (next element))))
+            (forms-rates-guards copy) (loop for (name pivot . whole) in (forms-rates-guards rates)
+                                            collect (list* name (next pivot) (next whole)))
+            (forms-rates-inertia copy) (mapcar #'next (forms-rates-inertia rates))))
+    copy))
+
+(defun forms-mapped-outputs (function outputs)
+  (loop for (name . value) in outputs
+        collect (cons name
+                      (cond ((or (numberp value) (algebra-node-p value)) (funcall function value))
+                            ((eq (car value) :list) (cons :list (mapcar function (cdr value))))
+                            (t (cons :matrix (loop for row in (cdr value)
+                                                   collect (mapcar function row))))))))
 
 ;;; Angles.
 

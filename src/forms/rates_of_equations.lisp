@@ -5,7 +5,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/agreement"
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/agreement" "forms/fixed"
                 "forms/program_judge" "forms/rates" "forms/value"))
 
 (defun forms-check-elements (elements expressions)
@@ -19,11 +19,20 @@
            collect (cons value (catch 'forms-no-value (forms-fixed-value e point))))
      point)))
 
-(defun $forms_rates_of_equations (variables expressions)
+(defun forms-sparse-elements (rows)
+  "Sparse rows of elements for the ROWS of expressions."
+  (loop for row in rows
+        collect (loop for e in (cdr row)
+                      for j from 0
+                      unless (eql e 0) collect (cons j (algebra-program-element e)))))
+
+(defun $forms_rates_of_equations (variables expressions matrix)
+  "M x' = X: MATRIX is a list of rows, or false for the identity."
   (with-algebra-program
     (let ((elements (mapcar #'algebra-program-element (cdr expressions))))
       (forms-check-elements elements (cdr expressions))
       (make-forms-rates
        :program *algebra-program* :states (cdr variables) :pairs '()
        :outputs (list (cons '$rates (cons :list elements)))
+       :mass (and matrix (forms-sparse-elements (cdr matrix)))
        :angles (forms-angles (cdr variables) elements)))))

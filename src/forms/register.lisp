@@ -147,10 +147,23 @@
 
 ;;; Rates of a run
 
-(core-rule "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
-  "Lagrangian" "coordinates" "actions" '("laws" ((mlist simp))))
+(defparameter *forms-rates-inputs* '("Lagrangian" "coordinates" "actions" ("laws" ((mlist simp)))))
+
+(apply #'core-rule "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
+       *forms-rates-inputs*)
+(apply #'core-rule "routh_rates" :any "forms/rates_of_systems" "forms_routh_rates"
+       (append *forms-rates-inputs* '(("cyclic" $auto) ("momenta" ((mlist simp))))))
+(apply #'core-rule "hamilton_rates" :any "forms/rates_of_systems" "forms_hamilton_rates"
+       (append *forms-rates-inputs* '(("momenta" ((mlist simp))))))
+(core-rule-given "hamiltonian" "hamilton_rates" '("lagrangian") "forms/rates_of_systems"
+  "forms_hamiltonian_rates"
+  "hamiltonian" "coordinates" '("momenta" ((mlist simp))) "canonical_actions"
+  '("laws" ((mlist simp))))
+(core-rule-same-as "rates" '("lagrangian") "routh_rates" :given '("function" $routh))
+(core-rule-same-as "rates" '("lagrangian") "hamilton_rates" :given '("function" $hamilton))
+(core-rule-same-as "rates" '("lagrangian") "hamilton_rates" :given "hamiltonian")
 (core-rule "rates" '("equations" "poisson") "forms/rates_of_systems" "forms_equation_rates"
-  "state_equations" '("laws" ((mlist simp))))
+  "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
 
 ;;; Poisson
 

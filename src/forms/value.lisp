@@ -85,8 +85,34 @@
 (defun forms-operation-value (e point)
   (flet ((parts () (mapcar (lambda (part) (forms-fixed-value part point)) (cdr e))))
     (cond ((forms-bound-noun-p e) (forms-noun-value e point))
+          ((eq (caar e) '$piecewise) (forms-pieces-value e point))
+          ((eq (caar e) '$unit_step)
+           (if (plusp (forms-fixed-value (second e) point)) (forms-fixed 1) 0))
           ((forms-open-function-p (caar e)) (forms-open-value (caar e) (parts)))
           (t (forms-function-value e (parts) point)))))
+
+(defun forms-pieces-value (e point)
+  "Of piecewise([condition, value], ..) the value with the first condition that holds."
+  (loop for (nil condition value) in (cdr e)
+        when (forms-condition-value condition point) return (forms-fixed-value value point)
+        finally (return (forms-no-value e))))
+
+(defun forms-condition-value (condition point)
+  "Whether CONDITION holds at POINT."
+  (flet ((holds (part) (forms-condition-value part point))
+         (by (test) (funcall test (forms-fixed-value (second condition) point)
+                             (forms-fixed-value (third condition) point))))
+    (cond ((atom condition)
+           (if (member condition '(nil t $otherwise)) condition (forms-no-value condition)))
+          (t (case (caar condition)
+               (mgreaterp (by #'>))
+               (mgeqp (by #'>=))
+               (mlessp (by #'<))
+               (mleqp (by #'<=))
+               (mand (every #'holds (cdr condition)))
+               (mor (some #'holds (cdr condition)))
+               (mnot (not (holds (second condition))))
+               (t (forms-no-value condition)))))))
 
 (defun forms-open-value (name arguments)
   "The polynomial of the function NAME at ARGUMENTS, as forms-open-polynomial has it."

@@ -10,8 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/composite_bodies" "forms/equations_as_program" "linmodel/motions"
-                "linmodel/arithmetic" "linmodel/twists"))
+  (core-require "linmodel/composite_bodies" "forms/equations_as_program" "forms/program_judge"
+                "linmodel/motions" "linmodel/arithmetic" "linmodel/twists"))
 
 (defun linmodel-articulated-p (joints)
   "Whether every velocity belongs to one link."

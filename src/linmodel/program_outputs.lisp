@@ -9,7 +9,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "linmodel/articulated_bodies" "linmodel/kinetic" "linmodel/energy_value"
-                "forms/equations_as_program" "forms/program_judge" "algebra/program_nodes"
+                "forms/dynamics" "forms/equations_as_program" "forms/program_judge" "algebra/program_nodes"
                 "linmodel/twists" "linmodel/arithmetic" "forms/value"
                 "linmodel/composite_bodies" "linmodel/motions"
                 "algebra/program_from_expressions" "algebra/program_derivative"
@@ -104,7 +104,8 @@
        :guards (lambda () (linmodel-articulated-guards tree))))))
 
 (defun linmodel-articulated-guards (tree)
-  (let ((joints (linmodel-tree-joints tree)) (names (linmodel-state-names (linmodel-tree-state tree))))
+  (let ((joints (linmodel-tree-joints tree))
+        (names (linmodel-state-names (linmodel-tree-state tree))))
     (loop for (i . guard) in (linmodel-articulated-pivots
                               (linmodel-tree-arithmetic tree) joints
                               (linmodel-no-loads joints) (mapcar (constantly 0) names))

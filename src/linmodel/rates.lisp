@@ -1,32 +1,58 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Rates of a system of bodies for a run: the accelerations of program_outputs.lisp, with guards.
-;;; The pivot of a velocity is what is left of its inertia when the bodies beyond it yield, against
-;;; its inertia when they are locked; the quotient of the two tells what the subtraction lost. See
-;;; linmodel-rates first.
+;;; The dynamics of a system of bodies for a run: the accelerations of program_outputs.lisp, M where
+;;; it is constant, guards. The pivot of a velocity is what is left of its inertia when the bodies
+;;; beyond it yield, against its inertia when they are locked; the quotient of the two tells what
+;;; the subtraction lost. See linmodel-dynamics first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/articulated_bodies" "linmodel/program_outputs"
-                "forms/equations_as_program" "forms/program_judge" "forms/rates_of_motion"
-                "linmodel/composite_bodies" "linmodel/motions" "linmodel/scene_records"
-                "algebra/program_nodes" "forms/rates"))
+  (core-require "linmodel/program_outputs" "algebra/program_derivative"
+                "algebra/program_from_expressions" "algebra/program_nodes" "forms/dynamics"
+                "forms/cyclic_momenta" "forms/equations_as_program" "forms/program_judge"
+                "forms/rates" "linmodel/composite_bodies"))
 
-(defun linmodel-rates (scene actions task)
+(defun linmodel-dynamics (scene actions task)
+  "ACTIONS: [U, R, [Q_1, ..]] beside the field."
   (let* ((tree (linmodel-program-tree scene task actions))
-         (bonds (forms-task-bonds task))
          (solver (linmodel-solver tree))
-         (outputs (linmodel-solved-outputs solver bonds)))
-    (forms-check-program task outputs (linmodel-program-judge scene actions (forms-task-v task)))
-    (forms-solved-motion task outputs bonds (linmodel-solver-solve solver)
-                         (funcall (linmodel-solver-guards solver)))))
+         (bonds (forms-task-bonds task))
+         (energy (linmodel-program-kinetic (linmodel-program-arithmetic) scene task))
+         (constant (and (null bonds) (forms-constant-rows-p (list (list energy)) task))))
+    (make-forms-dynamics
+     :task task :bonds bonds :inertia (list energy)
+     :free (linmodel-solver-free solver) :solve (linmodel-solver-solve solver)
+     :guards (linmodel-solver-guards solver)
+     :mass (and constant (linmodel-tree-rows tree))
+     :right (and constant (linmodel-right-sides tree))
+     :terms (lambda () (linmodel-program-terms scene actions task))
+     :judge (linmodel-program-judge scene actions (forms-task-v task)))))
+
+(defun linmodel-program-terms (scene actions task)
+  (destructuring-bind (potential dissipation forces) (cdr actions)
+    (let ((places (mapcar #'algebra-program-input (forms-task-q task)))
+          (velocities (mapcar #'algebra-program-input (forms-task-v task)))
+          (function (linmodel-function-element scene potential task '|$l|)))
+      (make-forms-program-terms
+       :places places :velocities velocities
+       :momenta (algebra-program-gradient function velocities)
+       :slopes (algebra-program-gradient function places)
+       :damping (algebra-program-gradient (algebra-program-element dissipation) velocities)
+       :forces (mapcar #'algebra-program-element (cdr forces))))))
 
 ;;; For Maxima.
 
-(defun $linmodel_tree_rates (scene actions task angles)
-  "The rates; ACTIONS: [U, R, [Q_1, ..]] beside the field; ANGLES: coordinates that turn bodies."
+(defun $linmodel_tree_rates (scene actions task angles wanted)
+  "The rates in the form WANTED; ACTIONS: [U, R, [Q_1, ..]] beside the field; ANGLES: coordinates
+that turn bodies."
   (with-algebra-program
-    (let ((rates (linmodel-rates scene actions (forms-read-task task))))
-      (setf (forms-rates-angles rates)
-            (union (cdr angles) (forms-rates-angles rates) :test #'alike1))
-      rates)))
+    (linmodel-with-angles angles
+                          (forms-rates-in-form
+                           (linmodel-dynamics scene actions (forms-read-task task)) wanted))))
+
+(defun linmodel-with-angles (angles rates)
+  (setf (forms-rates-angles rates)
+        (remove-if-not (lambda (x) (or (member x (cdr angles) :test #'alike1)
+                                       (member x (forms-rates-angles rates) :test #'alike1)))
+                       (forms-rates-states rates)))
+  rates)

@@ -86,9 +86,18 @@
 
 (apply #'core-rule "rates" '("mechanical") "linmodel/rates_of_scenes" "linmodel_scene_rates"
        *linmodel-program-inputs*)
-(core-rule-given '(:edited "Lagrangian") "rates" '("mechanical") "forms/rates_of_systems"
-                 "forms_lagrange_rates" "Lagrangian" "coordinates" "actions"
-                 '("laws" ((mlist simp))))
+(apply #'core-rule "routh_rates" '("mechanical") "linmodel/rates_of_scenes" "linmodel_routh_rates"
+       (append *linmodel-program-inputs* '(("cyclic" $auto))))
+(apply #'core-rule "hamilton_rates" '("mechanical") "linmodel/rates_of_scenes"
+       "linmodel_hamilton_rates" *linmodel-program-inputs*)
+(core-rule-same-as "rates" '("mechanical") "routh_rates" :given '("function" $routh))
+(core-rule-same-as "rates" '("mechanical") "hamilton_rates" :given '("function" $hamilton))
+(loop for (name function . more) in '(("rates" "forms_lagrange_rates")
+                                      ("routh_rates" "forms_routh_rates" ("cyclic" $auto) "momenta")
+                                      ("hamilton_rates" "forms_hamilton_rates" "momenta"))
+      do (apply #'core-rule-given '(:edited "Lagrangian") name '("mechanical")
+                "forms/rates_of_systems" function "Lagrangian" "coordinates" "actions"
+                '("laws" ((mlist simp))) more))
 
 ;;; Equations in quasi-velocities
 

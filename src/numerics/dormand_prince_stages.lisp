@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/step_control"
-                "numerics/dormand_prince_coefficients"))
+  (core-require "numerics/dormand_prince" "numerics/dormand_prince_coefficients"
+                "numerics/problem" "numerics/step_control"))
 
 (defstruct numerics-dopri
   "A run under way."

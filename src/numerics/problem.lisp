@@ -82,6 +82,7 @@
   (first-step nil)     ; nil: chosen by the method
   (largest-step nil)
   (most-steps nil)     ; nil: no limit
+  (mends-start nil)    ; the algebraic part of an inconsistent start is mended, by implicit methods
   (looks-for nil)      ; :stiffness (explicit methods), :end-of-stiffness (implicit ones): see auto
   (counts (make-numerics-counts)))
 
@@ -98,7 +99,8 @@
 
 (defstruct numerics-outcome
   status   ; :end, :stopped, :stiff, :not-stiff (of those that look for it), or what went wrong:
-           ; :not-finite, :smallest-step, :no-convergence, :most-steps, :singular
+           ; :not-finite, :smallest-step, :no-convergence, :most-steps, :singular,
+           ; :inconsistent (the start, where the mass is singular)
   moment state
   (step 0d0 :type double-float) ; the next step that the method would take
   about)   ; a sentence for a person, or nil

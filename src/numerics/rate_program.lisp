@@ -7,8 +7,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "forms/agreement"
-                "forms/program_judge" "forms/rates" "forms/value"))
+                "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
+                "forms/fixed" "forms/program_judge" "forms/rates"
+                "forms/value" "numerics/mass_index"
+                "numerics/rate_mass"))
 
 ;;; Values.
 
@@ -25,74 +27,101 @@
                   (core-words (list value))))
     element))
 
-(defun numerics-refuse-state-values (pairs states)
-  (loop for (name) in pairs
-        do (when (or (eq name '$t) (member name states :test #'alike1))
+(defun numerics-parameter-pairs (pairs rates)
+  "PAIRS without those of momenta that are states here; other states have no fixed value."
+  (loop for pair in pairs
+        for name = (car pair)
+        do (when (and (or (eq name '$t) (member name (forms-rates-states rates) :test #'alike1))
+                      (not (member name (forms-rates-momenta rates))))
              (core-error "~a moves and has no fixed value; that at the start belongs into start"
-                         (core-words (list name))))))
+                         (core-words (list name))))
+        unless (member name (forms-rates-momenta rates)) collect pair))
 
 ;;; Exchange. What vanishes below a line is told with the values that make it vanish.
 
 (defun numerics-exchanged-rates (rates values)
   "RATES in the current program, with their names outside and VALUES, ((name . element) ..)."
-  (let* ((copy (copy-forms-rates rates))
-         (exchange (algebra-exchange-by (append (numerics-outside-pairs rates) values)))
-         (found (algebra-exchanged
-                 (forms-rates-elements rates) exchange
-                 (lambda (denominator)
-                   (numerics-fault-division denominator rates values)))))
-    (flet ((next (element) (declare (ignore element)) (pop found)))
-      (setf (forms-rates-program copy) *algebra-program*
-            (forms-rates-pairs copy) '()
-            (forms-rates-outputs copy) (numerics-mapped-outputs #'next (forms-rates-outputs rates))
-            (forms-rates-mass copy) (loop for row in (forms-rates-mass rates)
-                                          collect (loop for (j . element) in row
-                                                        collect (cons j (next element))))
-            (forms-rates-guards copy) (loop for (name pivot . whole) in (forms-rates-guards rates)
-                                            collect (list* name (next pivot) (next whole)))))
-    copy))
+  (let ((new (forms-exchanged-rates
+              rates
+              (algebra-exchange-by (append (numerics-outside-pairs rates) values))
+              (lambda (denominator) (numerics-fault-division denominator rates values)))))
+    (setf (forms-rates-pairs new) '())
+    new))
 
 (defun numerics-outside-pairs (rates)
   (loop for (inside . outside) in (forms-rates-pairs rates)
         collect (cons inside (algebra-program-input outside))))
 
-(defun numerics-mapped-outputs (function outputs)
-  (loop for (name . value) in outputs
-        collect (cons name
-                      (cond ((or (numberp value) (algebra-node-p value)) (funcall function value))
-                            ((eq (car value) :list) (cons :list (mapcar function (cdr value))))
-                            (t (cons :matrix (loop for row in (cdr value)
-                                                   collect (mapcar function row))))))))
-
 (defun numerics-fault-division (denominator rates values)
-  (let ((guilty (algebra-vanishing-values denominator values (lambda (element) (eql element 0))))
+  "The error for a DENOMINATOR of RATES that vanishes with VALUES."
+  (let ((guilty (algebra-vanishing-values denominator values #'numerics-nought-p))
         (guard (find denominator (forms-rates-guards rates) :key #'second)))
-    (core-error "with ~{~a = ~a~^, ~} the program divides by zero~@[: the pivot of ~a in the mass ~
+    (core-error "~@[with ~{~a~^, ~} ~]the program divides by zero~@[: the pivot of ~a in the mass ~
                  matrix vanishes~]"
                 (loop for (name . element) in guilty
-                      append (list (core-words (list name)) (numerics-value-text element)))
+                      collect (format nil "~a = ~a" (core-words (list name))
+                                      (numerics-value-text element)))
                 (and guard (core-words (list (first guard)))))))
 
 (defun numerics-value-text (element)
   (if (numberp element) (core-words (list (algebra-maxima-rational element))) "its value"))
 
+(defun numerics-nought-p (element)
+  "Whether ELEMENT vanishes, at sight or at a random point."
+  (or (eql element 0)
+      (let ((value (first (catch 'forms-no-value
+                            (forms-program-values (list element) (forms-new-point t))))))
+        (and value (forms-negligible-p value)))))
+
 ;;; The check.
 
 (defun numerics-check-exchange (rates new values)
   "The values of NEW against those of RATES at a random point."
+  (let* ((point (numerics-point-with rates values))
+         (numbers (numerics-numbers (forms-rates-elements rates) point)))
+    (unless numbers (numerics-check-denominators rates values point))
+    (forms-verdict-of "values put in: against the program without them"
+                      (or (mapcar #'cons numbers
+                                  (numerics-numbers (forms-rates-elements new) point))
+                          '((nil)))
+                      point)))
+
+(defun numerics-numbers (elements point)
+  (catch 'forms-no-value (forms-program-values elements point)))
+
+(defun numerics-point-with (rates values)
+  "A random point where states have one value under both of their names, and parameters VALUES."
   (let ((point (forms-new-point t)))
     (loop for (inside . outside) in (forms-rates-pairs rates)
           do (forms-set-place inside (forms-variable-value outside point) point))
     (loop for (name . element) in values
           do (forms-set-place name (first (forms-program-values (list element) point)) point))
-    (flet ((numbers (rates)
-             (catch 'forms-no-value
-               (forms-program-values (forms-rates-elements rates) point))))
-      (forms-verdict-of "values put in: against the program without them"
-                        (or (mapcar #'cons (numbers rates) (numbers new)) '((nil)))
-                        point))))
+    point))
+
+(defun numerics-check-denominators (rates values point)
+  "An error for the first denominator of RATES that vanishes at the POINT with VALUES, though not at
+sight."
+  (dolist (node (algebra-live-nodes (forms-rates-elements rates)))
+    (when (eq (algebra-node-operation node) :divide)
+      (let ((value (first (numerics-numbers (list (algebra-node-right node)) point))))
+        (cond ((null value) (return nil))
+              ((forms-negligible-p value)
+               (numerics-fault-division (algebra-node-right node) rates values)))))))
 
 ;;; The record.
+
+(defun numerics-mass-outputs (rates)
+  (let ((rows (forms-rates-mass rates)))
+    (when rows
+      (list (cons '$mass
+                  (cons :matrix (numerics-full-rows rows)))))))
+
+(defun numerics-full-rows (rows)
+  (loop with n = (length rows)
+        for row in rows
+        collect (let ((full (make-array n :initial-element 0)))
+                  (loop for (j . element) in row do (setf (aref full j) element))
+                  (coerce full 'list))))
 
 (defun numerics-guard-outputs (rates)
   (let ((guards (forms-rates-guards rates)))
@@ -105,31 +134,56 @@
   "The record of RATES, whose names are those outside; MORE are further fields."
   (let ((record (algebra-program-record
                  (cons '$t (forms-rates-states rates))
-                 (append (forms-rates-outputs rates) (numerics-guard-outputs rates)))))
+                 (append (forms-rates-outputs rates) (numerics-mass-outputs rates)
+                         (numerics-guard-outputs rates)))))
     (flet ((field (name list) (algebra-field name (cons '(mlist simp) list))))
       (append record
               (list (field '$states (forms-rates-states rates))
                     (field '$angles (forms-rates-angles rates))
                     (algebra-field '$split (or (forms-rates-split rates) 0))
+                    (field '$cyclic (forms-rates-cyclic rates))
                     (field '$guarded (mapcar #'first (forms-rates-guards rates))))
               more))))
 
 (defun numerics-operations (rates)
   (count-if-not #'algebra-input-p
-                (algebra-live-nodes (algebra-all-outputs (forms-rates-outputs rates)))))
+                (algebra-live-nodes (numerics-right-sides rates))))
+
+(defun numerics-constant-mass-p (rates)
+  (let ((moving (if (forms-rates-split rates)
+                    (subseq (forms-rates-states rates) 0 (forms-rates-split rates))
+                    (forms-rates-states rates))))
+    (numerics-constant-p (append (forms-rates-inertia rates)
+                                 (loop for row in (forms-rates-mass rates)
+                                       append (mapcar #'cdr row)))
+                         moving)))
+
+;;; Rates as a run takes them.
+
+(defun numerics-run-rates (rates pairs solved)
+  "RATES in the current program with the values of PAIRS, ((name . element) ..), put in, divided by
+M as far as it goes; and whether M is constant."
+  (let ((new (numerics-exchanged-rates rates pairs)))
+    (numerics-check-exchange rates new pairs)
+    (values (numerics-checked-index (numerics-settled-rates new solved) rates pairs)
+            (numerics-constant-mass-p new))))
+
+(defun numerics-operations-without (rates solved)
+  "Operations of RATES without values."
+  (with-algebra-program
+    (numerics-operations (numerics-settled-rates (numerics-exchanged-rates rates '()) solved))))
 
 ;;; For Maxima.
 
-(defun $numerics_rate_program (rates values)
+(defun $numerics_rate_program (rates values solved)
   "The record of RATES with VALUES, equations name = number."
   (with-algebra-program
-    (let ((pairs (numerics-value-pairs values)))
-      (numerics-refuse-state-values pairs (forms-rates-states rates))
-      (let ((new (numerics-exchanged-rates rates pairs)))
-        (numerics-check-exchange rates new pairs)
+    (let ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates)))
+      (multiple-value-bind (new constant) (numerics-run-rates rates pairs solved)
         (numerics-program-record
          new
-         (list (algebra-field '$operations_before (numerics-operations rates))
+         (list (algebra-field '$mass_constant constant)
+               (algebra-field '$operations_before (numerics-operations-without rates solved))
                (algebra-field '$operations_after (numerics-operations new))
                (algebra-field '$zero
                               (cons '(mlist simp)

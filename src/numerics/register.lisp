@@ -8,7 +8,26 @@
 
 (core-public "RateProgram"
   :forms '(("lagrangian" "Lagrangian" "coordinates") ("equations" "equations"))
-  :options '("values" "rayleigh" "forces" "constraints" "nonholonomic" "laws")
+  :options '("values" "rayleigh" "forces" "constraints" "nonholonomic" "laws" "solved" "function"
+             "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
 (core-rule "RateProgram" :any "numerics/rate_program" "numerics_rate_program" "rates"
-  *numerics-values*)
+  *numerics-values* '("solved" nil))
+
+;;; Runs
+
+(core-option '("auto" "dop853" "radau" "gauss" "dlsode") "method")
+(core-option :truth "stop")
+
+(core-rule "run" :any "numerics/run_options" "numerics_wishes" '("method" $auto) '("points" 101)
+  '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("step" 0))
+
+(core-public "Simulate"
+  :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
+           ("equations" "equations" "start" "time"))
+  :trailing '("start" "time")
+  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "step" "rayleigh"
+             "forces" "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
+  :kinds (core-kind-names) :numerical t)
+(core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "rates" *numerics-values*
+  "start" "time" "run")

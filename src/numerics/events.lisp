@@ -1,0 +1,237 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Events: zeros of functions g(t, x) along a run, between its steps by dense output. Each step is
+;;; looked at in 17 places. Between two of them a change of sign is a crossing, found to the last
+;;; place of t; where |g| falls at one and rises at the other, g may touch 0 or cross it twice, and
+;;; its least value decides. A run that starts at a zero does not meet it there. Directions are those
+;;; along the run. Look first at numerics-see-events.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "numerics/problem" "numerics/roots"))
+
+(defparameter *numerics-touch* 1d-14
+  "A value is 0, as far as rounding tells, below this share of the largest one in the step.")
+
+(defstruct numerics-events
+  functions                     ; (moment x out): g_1, .. into OUT
+  (count 0 :type fixnum)
+  directions                    ; list: 1 for crossings upwards, -1 downwards, 0 for both and touches
+  stops                         ; list: whether the run ends there
+  project                       ; nil, or (moment x): brings a state back to the constraints
+  (found '())                   ; the last one first
+  (sides nil)                   ; vector of the signs of g_1, .. before the step; nil before the run
+  (samples (numerics-zeros 0) :type numerics-vector) ; of each, k/16 of the step
+  (values (numerics-zeros 0) :type numerics-vector)
+  (moment (numerics-zeros 2) :type numerics-vector)
+  (state (numerics-zeros 0) :type numerics-vector))
+
+(defstruct numerics-event
+  place                         ; of its function
+  direction                     ; 1, -1; 0 where the zero is touched
+  moment state)
+
+(defun numerics-new-events (functions size directions stops project)
+  "What looks for zeros of FUNCTIONS, as many as there are DIRECTIONS, along states of SIZE."
+  (let ((count (length directions)))
+    (make-numerics-events
+     :functions functions :count count :directions directions :stops stops :project project
+     :samples (numerics-zeros (* 17 count)) :values (numerics-zeros count)
+     :state (numerics-zeros size))))
+
+;;; Values along a step
+
+(declaim (inline numerics-step-moment))
+(defun numerics-step-moment (step share out)
+  "The moment at SHARE of STEP, into OUT."
+  (declare (double-float share) (type numerics-vector out))
+  (let ((from (numerics-step-from step)) (to (numerics-step-to step)))
+    (setf (aref out 0) (aref from 0) (aref out 1) (aref from 1))
+    (numerics-advance out (* share (+ (- (aref to 0) (aref from 0))
+                                      (- (aref to 1) (aref from 1)))))))
+
+(defun numerics-events-at (events step share)
+  "The values of all functions at SHARE of STEP."
+  (declare (double-float share))
+  (let ((moment (numerics-events-moment events)) (state (numerics-events-state events))
+        (values (numerics-events-values events)))
+    (numerics-step-moment step share moment)
+    (funcall (the function (numerics-step-interpolate step)) share state)
+    (funcall (the function (numerics-events-functions events)) moment state values)
+    values))
+
+(defun numerics-event-function (events step place)
+  "The function PLACE as one of the share of STEP."
+  (lambda (share) (aref (the numerics-vector (numerics-events-at events step share)) place)))
+
+(defparameter *numerics-sixteenths* (loop for k to 16 collect (/ k 16d0)))
+
+(defun numerics-sample-events (events step)
+  (declare (optimize speed))
+  (let ((samples (numerics-events-samples events)) (count (numerics-events-count events)))
+    (loop for share in *numerics-sixteenths*
+          for k of-type fixnum from 0
+          do (let ((values (numerics-events-at events step share)))
+               (declare (type numerics-vector values))
+               (dotimes (place count)
+                 (setf (aref samples (+ k (the fixnum (* 17 place)))) (aref values place)))))))
+
+(declaim (inline numerics-sample numerics-side))
+
+(defun numerics-sample (events place k)
+  (declare (fixnum place k))
+  (aref (numerics-events-samples events) (+ k (the fixnum (* 17 place)))))
+
+(defun numerics-side (x)
+  (declare (double-float x))
+  (cond ((> x 0d0) 1) ((< x 0d0) -1) (t 0)))
+
+(defun numerics-largest-sample (events place)
+  (loop for k to 16 maximize (abs (numerics-sample events place k))))
+
+(defun numerics-quiet-p (events place side)
+  "Whether all samples of the function PLACE are on its SIDE, and farther from 0 than they vary."
+  (declare (fixnum place side) (optimize speed))
+  (let* ((last (numerics-sample events place 0)) (least (* side last)) (way 0d0))
+    (declare (double-float last least way))
+    (loop for k of-type fixnum from 1 to 16
+          do (let ((value (numerics-sample events place k)))
+               (incf way (abs (- value last)))
+               (setq last value
+                     least (min least (* side value)))))
+    (> least way)))
+
+(defun numerics-side-after (events step place share)
+  "The sign of the function PLACE shortly after SHARE of STEP, where it is 0."
+  (numerics-side (aref (numerics-events-at events step (+ share (/ 1024d0))) place)))
+
+(defun numerics-begin-events (events step)
+  "The sides at the start of a run: where a value is 0 there, as far as rounding tells, the side to
+which it goes."
+  (setf (numerics-events-sides events)
+        (coerce (loop for place below (numerics-events-count events)
+                      for first = (numerics-sample events place 0)
+                      collect (if (<= (abs first)
+                                      (* *numerics-touch* (numerics-largest-sample events place)))
+                                  (numerics-side-after events step place 0d0)
+                                  (numerics-side first)))
+                'vector)))
+
+;;; Where |g| may touch 0 or cross it twice between two samples
+
+(defun numerics-sample-slope (events place k)
+  "By how much the function PLACE rises at the sample K, in 1/16 of the step: five-point formulas."
+  (declare (fixnum place k) (optimize speed))
+  (let ((middle (max 2 (min 14 k))))
+    (flet ((sum (a b c d e)
+             (declare (double-float a b c d e))
+             (/ (+ (* a (numerics-sample events place (- middle 2)))
+                   (* b (numerics-sample events place (- middle 1)))
+                   (* c (numerics-sample events place middle))
+                   (* d (numerics-sample events place (+ middle 1)))
+                   (* e (numerics-sample events place (+ middle 2))))
+                12d0)))
+      (declare (inline sum))
+      (case (- k middle)
+        (-2 (sum -25d0 48d0 -36d0 16d0 -3d0))
+        (-1 (sum -3d0 -10d0 18d0 -6d0 1d0))
+        (0 (sum 1d0 -8d0 0d0 8d0 -1d0))
+        (1 (sum -1d0 6d0 -18d0 10d0 3d0))
+        (t (sum 3d0 -16d0 36d0 -48d0 25d0))))))
+
+(defun numerics-may-dip-p (events place side k)
+  "Whether |g| falls at the sample K, rises at the next, and its tangents there meet below 0. (A zero
+at the sample K itself was met before it.)"
+  (let ((left (* side (numerics-sample events place k)))
+        (right (* side (numerics-sample events place (1+ k))))
+        (falls (- (* side (numerics-sample-slope events place k))))
+        (rises (* side (numerics-sample-slope events place (1+ k)))))
+    (and (>= falls 0) (>= rises 0) (> (+ falls rises) 0)
+         (> left (* *numerics-touch* (numerics-largest-sample events place)))
+         (<= (- left (* falls (/ (+ (- left right) rises) (+ falls rises)))) 0))))
+
+;;; Zeros, as (share place direction)
+
+(defun numerics-crossing (events step place from to)
+  "The share of STEP at which the function PLACE leaves its side at FROM, not after TO."
+  (let* ((function (numerics-event-function events step place))
+         (begin (aref (numerics-step-from step) 0)) (end (aref (numerics-step-to step) 0))
+         (last-place (* double-float-epsilon (max (abs begin) (abs end)))))
+    (numerics-zero-between function
+                   (if (zerop (funcall function from)) (+ from (/ 1024d0)) from)
+                   to
+                   (max 1d-16 (/ last-place (max (abs (- end begin)) (* 1d4 last-place)
+                                                 least-positive-normalized-double-float))))))
+
+(defun numerics-dip (events step place side k)
+  "Two crossings after the sample K, or a touch, or nothing."
+  (let* ((from (/ k 16d0)) (to (/ (1+ k) 16d0))
+         (value (numerics-event-function events step place))
+         (least (numerics-least (lambda (share) (* side (funcall value share))) from to))
+         (depth (* side (funcall value least))))
+    (cond ((<= (abs depth) (* *numerics-touch* (numerics-largest-sample events place)))
+           (list (list least place 0)))
+          ((< depth 0)
+           (list (list (numerics-crossing events step place from least) place (- side))
+                 (list (numerics-crossing events step place least to) place side))))))
+
+(defun numerics-zero-at (events step place side k)
+  "The zero of the function PLACE at the sample K itself; its new side is noted."
+  (let* ((share (/ k 16d0)) (after (numerics-side-after events step place share)))
+    (setf (svref (numerics-events-sides events) place) after)
+    (unless (zerop side)
+      (list (list share place (if (= after side) 0 (- side)))))))
+
+(defun numerics-zeros-after (events step place k)
+  "Zeros of the function PLACE after the sample K up to the next; its new side is noted."
+  (let ((side (svref (numerics-events-sides events) place))
+        (new (numerics-side (numerics-sample events place (1+ k)))))
+    (cond ((zerop new) (numerics-zero-at events step place side (1+ k)))
+          ((= new side)
+           (when (numerics-may-dip-p events place side k)
+             (numerics-dip events step place side k)))
+          (t (setf (svref (numerics-events-sides events) place) new)
+             (unless (zerop side)
+               (list (list (numerics-crossing events step place (/ k 16d0) (/ (1+ k) 16d0))
+                           place new)))))))
+
+(defun numerics-wanted-zeros (events step)
+  "Zeros in STEP in the order of time, of the wanted directions."
+  (sort (loop for place below (numerics-events-count events)
+              for wanted in (numerics-events-directions events)
+              for side = (svref (numerics-events-sides events) place)
+              unless (numerics-quiet-p events place side)
+                append (loop for k below 16
+                             append (remove-if-not
+                                     (lambda (zero) (or (zerop wanted) (= wanted (third zero))))
+                                     (numerics-zeros-after events step place k))))
+        #'< :key #'first))
+
+;;; What the observer does
+
+(defun numerics-event-of (events step share place direction)
+  (let ((moment (numerics-zeros 2)) (state (copy-seq (numerics-events-state events))))
+    (numerics-step-moment step share moment)
+    (funcall (numerics-step-interpolate step) share state)
+    (when (numerics-events-project events)
+      (funcall (numerics-events-project events) moment state))
+    (make-numerics-event :place place :direction direction :moment moment :state state)))
+
+(defun numerics-end-step (step share event)
+  "STEP ends at EVENT, at SHARE of it."
+  (let ((between (numerics-step-interpolate step)))
+    (setf (numerics-step-interpolate step)
+          (lambda (part out) (funcall between (* part share) out)))
+    (replace (numerics-step-to step) (numerics-event-moment event))
+    (replace (numerics-step-after step) (numerics-event-state event))))
+
+(defun numerics-see-events (events step)
+  "Notes the zeros in STEP; :stop where one of them ends the run, and STEP ends there."
+  (numerics-sample-events events step)
+  (unless (numerics-events-sides events) (numerics-begin-events events step))
+  (loop for (share place direction) in (numerics-wanted-zeros events step)
+        for event = (numerics-event-of events step share place direction)
+        do (push event (numerics-events-found events))
+           (when (nth place (numerics-events-stops events))
+             (numerics-end-step step share event)
+             (return :stop))))

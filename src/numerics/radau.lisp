@@ -1,0 +1,217 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Integration of M x' = X(t, x), stiff or differential-algebraic of index 1, by the implicit method
+;;; Radau IIA of order 5 (Hairer & Wanner: Solving Ordinary Differential Equations II, section IV.8,
+;;; and their code radau5.f; the tolerance is taken as it is given, the norm is that of the controls).
+;;; The Jacobian and the factors of the two systems are kept as long as they serve. Look first at
+;;; numerics-radau, then at numerics-radau-step-on.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/native"
+                "numerics/problem" "numerics/radau_coefficients" "numerics/radau_control"
+                "numerics/radau_newton" "numerics/radau_run" "numerics/radau_start"
+                "numerics/radau_stiffness" "numerics/step_control"))
+
+(defun numerics-radau (problem controls moment state observer)
+  "Integrates PROBLEM from STATE at MOMENT; an outcome."
+  (unless (numerics-problem-jacobian problem)
+    (core-error "the method radau needs the Jacobian of the right sides"))
+  (let ((run (numerics-new-radau problem controls moment state)))
+    (unwind-protect
+         (progn
+           (numerics-radau-show run)
+           (loop for status = (numerics-radau-begin run)
+                   then (or (numerics-radau-limits run) (numerics-radau-step-on run observer))
+                 when status return (numerics-radau-outcome run status)))
+      (numerics-release-radau run))))
+
+(defun numerics-radau-show (run)
+  "What the observer will see of each step of RUN."
+  (setf (numerics-radau-run-seen run)
+        (make-numerics-step :before (numerics-radau-run-before run)
+                            :after (numerics-radau-run-after run)
+                            :interpolate (lambda (share out)
+                                           (numerics-radau-between run share out)))))
+
+(defun numerics-radau-between (run share out)
+  "The state SHARE of the step after its beginning, by the collocation polynomial, into OUT."
+  (declare (double-float share) (type numerics-vector out) (optimize speed))
+  (numerics-with-radau (run before z3 p1 p2 p3)
+    (numerics-with-radau-numbers (c1 c2)
+      (let ((later (- share 1d0)))
+        (dotimes (i (length out) out)
+          (setf (aref out i)
+                (+ (aref before i)
+                   (+ (aref z3 i) (numerics-collocation later p1 p2 p3 i)))))))))
+
+(defun numerics-radau-outcome (run status)
+  (make-numerics-outcome :status status :moment (numerics-radau-run-moment run)
+                         :state (numerics-radau-run-before run)
+                         :step (numerics-radau-run-next-step run)
+                         :about (numerics-radau-run-about run)))
+
+;;; Before a step.
+
+(defun numerics-radau-limits (run)
+  "The status in which RUN ends before its next step, or nil; that step is made to meet the end."
+  (numerics-with-radau (run controls counts moment step)
+    (let ((left (numerics-time-left controls moment)) (smallest (numerics-smallest-step moment))
+          (most (numerics-controls-most-steps controls)))
+      (setf (numerics-radau-run-last run) (<= (abs left) (* 1.01d0 (abs step))))
+      (cond ((< (abs left) smallest) :end)
+            ((< (abs step) smallest) (or (numerics-radau-run-failure run) :smallest-step))
+            ((and most (>= (+ (numerics-counts-steps counts) (numerics-counts-rejected counts))
+                           most))
+             :most-steps)
+            ((numerics-radau-run-last run)
+             (setf (numerics-radau-run-step run) left)
+             nil)))))
+
+(defun numerics-radau-prepare (run)
+  "Jacobian and factors for the step; a status, :again where the step had to be shortened, or nil."
+  (numerics-with-radau (run jacobian step factored-step)
+    (or (and (eq jacobian :none) (numerics-radau-differentiate run))
+        (and (/= step (if (eq jacobian :none) 0d0 factored-step))
+             (numerics-radau-factor run)))))
+
+(defun numerics-radau-differentiate (run)
+  (numerics-with-radau (run problem counts moment before entries)
+    (incf (numerics-counts-jacobians counts))
+    (funcall (the function (numerics-problem-jacobian problem)) moment before entries)
+    (setf (numerics-radau-run-jacobian run) :fresh
+          (numerics-radau-run-trust run) 0)
+    (cond ((numerics-finite-vector-p entries)
+           (numerics-radau-follow-radius run)
+           nil)
+          (t (setf (numerics-radau-run-about run) "an entry of the Jacobian is not finite")
+             :not-finite))))
+
+(defun numerics-radau-factor (run)
+  (numerics-with-radau (run counts single pair step entries)
+    (numerics-with-radau-numbers (single-root pair-root pair-turn)
+      (setf (numerics-solver-shift single) (/ single-root step)
+            (numerics-solver-shift pair) (/ pair-root step)
+            (numerics-solver-shift-imaginary pair) (/ pair-turn step)))
+    (incf (numerics-counts-factorisations counts) 2)
+    (cond ((or (numerics-factor single entries) (numerics-factor pair entries))
+           (numerics-radau-singular run))
+          ((numerics-radau-turned-p run) (numerics-radau-turned run))
+          (t (setf (numerics-radau-run-factored-step run) step
+                   (numerics-radau-run-singular run) 0)
+             nil))))
+
+(defun numerics-radau-singular (run)
+  "Five singular matrices in turn end the run."
+  (numerics-with-radau (run step)
+    (cond ((< (incf (numerics-radau-run-singular run)) 5)
+           (setf (numerics-radau-run-step run) (/ step 2)
+                 (numerics-radau-run-factored-step run) 0d0)
+           :again)
+          (t (setf (numerics-radau-run-about run)
+                   (numerics-singular-sentence (numerics-radau-run-single run)
+                                               (numerics-radau-run-problem run)))
+             :singular))))
+
+;;; An estimate by the real system is blind where a real eigenvalue of the Jacobian exceeds that of the
+;;; step: a solution that grows so fast, or a constraint past a singular point. Then the determinant
+;;; has not the sign that it has for short steps.
+
+(defun numerics-radau-turned-p (run)
+  (numerics-with-radau (run single orientation)
+    (and orientation (/= (numerics-orientation single) orientation))))
+
+(defun numerics-radau-turned (run)
+  (setf (numerics-radau-run-step run) (/ (numerics-radau-run-step run) 2)
+        (numerics-radau-run-factored-step run) 0d0
+        (numerics-radau-run-failure run) :smallest-step)
+  :again)
+
+;;; A step.
+
+(defun numerics-radau-step-on (run observer)
+  "Tries a step; the status in which RUN ends with it, or nil."
+  (let ((status (numerics-radau-prepare run)))
+    (cond ((eq status :again) nil)
+          (status)
+          (t (numerics-radau-weigh run nil)
+             (numerics-radau-guess-stages run)
+             (let ((factor (numerics-radau-find-stages run)))
+               (if factor
+                   (numerics-radau-without-stages run factor)
+                   (numerics-radau-judge run observer)))))))
+
+(defun numerics-radau-reject (run factor failure)
+  "The step is tried again, FACTOR times as long; FAILURE: what it lacked, nil for accuracy."
+  (declare (double-float factor))
+  (incf (numerics-counts-rejected (numerics-radau-run-counts run)))
+  (setf (numerics-radau-run-rejected run) t
+        (numerics-radau-run-failure run) failure
+        (numerics-radau-run-step run) (* factor (numerics-radau-run-step run)))
+  nil)
+
+(defun numerics-radau-without-stages (run factor)
+  "An old Jacobian is made anew; with a fresh one the step shortens by FACTOR."
+  (declare (double-float factor))
+  (cond ((eq (numerics-radau-run-jacobian run) :old)
+         (setf (numerics-radau-run-jacobian run) :none)
+         nil)
+        (t (numerics-radau-reject run factor (if (= factor 0.25d0) :not-finite :no-convergence)))))
+
+(defun numerics-radau-judge (run observer)
+  (numerics-radau-estimate run)
+  (numerics-with-radau (run largest-error first)
+    (cond ((not (numerics-finite-p largest-error)) (numerics-radau-reject run 0.25d0 :not-finite))
+          ((>= largest-error 1d0)
+           (numerics-radau-reject run (if first 0.1d0 (/ (numerics-radau-divisor run))) nil))
+          ((numerics-radau-look-ahead run) (numerics-radau-accept run observer))
+          (t (incf (numerics-counts-not-finite (numerics-radau-run-counts run)))
+             (numerics-radau-reject run 0.25d0 :not-finite)))))
+
+(defun numerics-radau-look-ahead (run)
+  "The slope at the end of the step, unless the run ends there; whether it is finite."
+  (numerics-with-radau (run moment later step after ahead last)
+    (or last
+        (progn (replace later moment)
+               (numerics-advance later step)
+               (numerics-radau-rates run later after ahead)))))
+
+(defun numerics-radau-accept (run observer)
+  "The step stands; the status in which RUN ends with it, or nil."
+  (incf (numerics-counts-steps (numerics-radau-run-counts run)))
+  (numerics-radau-predict run)
+  (numerics-radau-collocate run)
+  (numerics-radau-note-moments run)
+  (setf (numerics-radau-run-first run) nil
+        (numerics-radau-run-failure run) nil)
+  (let ((said (funcall observer (numerics-radau-run-seen run))))
+    (replace (numerics-radau-run-before run) (numerics-radau-run-after run))
+    (cond ((eq said :stop) :stopped)
+          ((numerics-radau-run-last run) :end)
+          (t (numerics-radau-choose-next-step run)
+             (cond ((numerics-radau-calm-p run) :not-stiff)
+                   ((eq said :changed) (numerics-radau-first-slope run))
+                   (t (replace (numerics-radau-run-slope run) (numerics-radau-run-ahead run))
+                      nil))))))
+
+(defun numerics-radau-note-moments (run)
+  (numerics-with-radau (run seen moment step controls last)
+    (replace (numerics-step-from seen) moment)
+    (if last
+        (setf (aref moment 0) (numerics-controls-end controls)
+              (aref moment 1) 0d0)
+        (numerics-advance moment step))
+    (replace (numerics-step-to seen) moment)))
+
+(defun numerics-radau-choose-next-step (run)
+  "And what is kept for it: the factors are, where it would become a little shorter or longer."
+  (numerics-with-radau (run step next-step convergence rejected)
+    (let ((next (numerics-radau-limit run (if (and rejected (> (abs next-step) (abs step)))
+                                              step
+                                              next-step)))
+          (serves (<= convergence 1d-3)))
+      (setf (numerics-radau-run-next-step run) next
+            (numerics-radau-run-rejected run) nil
+            (numerics-radau-run-jacobian run) (if serves :old :none))
+      (unless (and serves (<= 0.9d0 (/ next step) 1.2d0))
+        (setf (numerics-radau-run-step run) next)))))
