@@ -64,18 +64,21 @@
   "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
 
 (defun numerics-carry-out (run)
-  "Makes the RUN; the sentence of the stop where its time was up."
+  "Makes the RUN; the sentence of the stop where its time was up or the person interrupted it."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
          (began (numerics-seconds)) (outcome nil))
     (multiple-value-bind (value stop)
         (core-within *numerics-share-of-time*
                      (lambda ()
-                       (numerics-with-masked-traps
-                         (setq outcome (funcall method (numerics-simulation-problem run)
-                                                (numerics-simulation-controls run)
-                                                (copy-seq (numerics-simulation-moment run))
-                                                (copy-seq (numerics-simulation-state run)) observer)))))
-      (declare (ignore value))
+                       (numerics-interruptible
+                         (numerics-with-masked-traps
+                           (setq outcome (funcall method (numerics-simulation-problem run)
+                                                  (numerics-simulation-controls run)
+                                                  (copy-seq (numerics-simulation-moment run))
+                                                  (copy-seq (numerics-simulation-state run))
+                                                  observer))))))
+      (when (eq value :interrupted)
+        (setq stop (format nil "interrupted~@[ at ~a~]" *core-doing*)))
       (setf (numerics-simulation-seconds run) (- (numerics-seconds) began)
             (numerics-simulation-outcome run) outcome)
       (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))
