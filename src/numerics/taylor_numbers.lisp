@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/big_values" "numerics/decimals"))
+  (core-require "algebra/size" "numerics/big_values" "numerics/decimals"))
 
 (defun numerics-shifted (x shift)
   "X times 2^SHIFT, rounded."
