@@ -8,8 +8,12 @@
 ;;; The middle: the circuit as described, its branches checked; the network, sorted by a tree, with
 ;;; its matrices. A circuit whose network is refused is still checked.
 
-(core-middle "circuit" '("circuit") "circuits/circuit" "circuits_circuit" "description")
-(core-middle "network" '("circuit") "circuits/network" "circuits_network" "circuit")
+(core-middle "circuit" '("circuit") "circuits/circuit" "circuits_read_circuit" "description")
+(core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
+
+(core-argument :formula "MixedPotential")
+(core-argument :branches "inductances" "capacitances")
+
 (core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 
@@ -43,7 +47,7 @@
 ;;; Rates of a run; where a potential is given, by its equations; Routh's and Hamilton's forms of a
 ;;; linear circuit are those in loop charges
 
-(core-rule "rates" '("circuit") "circuits/rates_of_circuits" "circuits_circuit_rates" "circuit")
+(core-middle "rates" '("circuit") "circuits/rates_of_circuits" "circuits_circuit_rates" "circuit")
 (core-rule-given "potential" "rates" '("circuit") "forms/rates_of_systems" "forms_equation_rates"
   "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
 (core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))

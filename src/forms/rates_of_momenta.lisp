@@ -152,10 +152,7 @@ FORCES alone."
   (let* ((task (forms-dynamics-task dynamics))
          (velocities (forms-cyclic-velocities dynamics constant))
          (outputs (forms-checked-outputs dynamics))
-         (pairs (append (loop for (x) in constant collect (cons x 0))
-                        (loop for (x) in constant
-                              for v in velocities
-                              collect (cons (forms-velocity-name x task) v))))
+         (pairs (forms-cyclic-pairs task constant velocities))
          (bonds (forms-put-in-bonds (forms-dynamics-bonds dynamics) pairs)))
     (destructuring-bind (accelerations multipliers)
         (forms-put-lists (list (forms-output-list '$accelerations outputs)
@@ -178,6 +175,13 @@ FORCES alone."
            :split (length (kept (forms-task-q task)))
            :inertia (forms-dynamics-inertia dynamics)
            :angles (forms-angles (kept (forms-task-q task)) elements)))))))
+
+(defun forms-cyclic-pairs (task constant velocities)
+  "What is put in: 0 for the cyclic coordinates, on which nothing depends, and their VELOCITIES."
+  (append (loop for (x) in constant collect (cons x 0))
+          (loop for (x) in constant
+                for v in velocities
+                collect (cons (forms-velocity-name x task) v))))
 
 (defun forms-put-in-guards (guards pairs)
   (loop for (name . guard) in guards

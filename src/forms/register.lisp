@@ -8,7 +8,13 @@
 
 (core-option :truth "simplify" "expanded" "eliminate" "solved")
 
+(core-argument :formula "Lagrangian" "lagrangian" "hamiltonian")
+(core-argument :shape "expression" "f" "g")
+(core-argument :variables "coordinates")
+(core-argument :motion "motion")
+
 (core-fact-judge "algebra/known_signs" 'algebra-name-signs)
+(core-divisor-judge "algebra/divisors" 'algebra-require-divisors)
 
 ;;; What acts beside L, and how equations are wanted
 
@@ -145,15 +151,15 @@
 (core-rule "ExportProgram" :any "forms/equation_program" "forms_export_program" "program" "file"
   '("language" $c) '("replace" nil))
 
-;;; Rates of a run
+;;; Rates of a run; with other numbers they are the same
 
 (defparameter *forms-rates-inputs* '("Lagrangian" "coordinates" "actions" ("laws" ((mlist simp)))))
 
-(apply #'core-rule "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
+(apply #'core-middle "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
        *forms-rates-inputs*)
-(apply #'core-rule "routh_rates" :any "forms/rates_of_systems" "forms_routh_rates"
+(apply #'core-middle "routh_rates" :any "forms/rates_of_systems" "forms_routh_rates"
        (append *forms-rates-inputs* '(("cyclic" $auto) ("momenta" ((mlist simp))))))
-(apply #'core-rule "hamilton_rates" :any "forms/rates_of_systems" "forms_hamilton_rates"
+(apply #'core-middle "hamilton_rates" :any "forms/rates_of_systems" "forms_hamilton_rates"
        (append *forms-rates-inputs* '(("momenta" ((mlist simp))))))
 (core-rule-given "hamiltonian" "hamilton_rates" '("lagrangian") "forms/rates_of_systems"
   "forms_hamiltonian_rates"
@@ -162,7 +168,7 @@
 (core-rule-same-as "rates" '("lagrangian") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("lagrangian") "hamilton_rates" :given '("function" $hamilton))
 (core-rule-same-as "rates" '("lagrangian") "hamilton_rates" :given "hamiltonian")
-(core-rule "rates" '("equations" "poisson") "forms/rates_of_systems" "forms_equation_rates"
+(core-middle "rates" '("equations" "poisson") "forms/rates_of_systems" "forms_equation_rates"
   "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
 
 ;;; Poisson

@@ -82,11 +82,12 @@
        "linmodel/programs" "linmodel_lagrange_program"
        (append *linmodel-program-inputs* '("equation_options")))
 
-;;; Rates of a run
+;;; Rates of a run; not kept, since remarks go with them
 
 (apply #'core-rule "rates" '("mechanical") "linmodel/rates_of_scenes" "linmodel_scene_rates"
        *linmodel-program-inputs*)
-(apply #'core-rule "routh_rates" '("mechanical") "linmodel/rates_of_scenes" "linmodel_routh_rates"
+(apply #'core-rule "routh_rates" '("mechanical") "linmodel/rates_of_scenes"
+       "linmodel_routh_rates"
        (append *linmodel-program-inputs* '(("cyclic" $auto))))
 (apply #'core-rule "hamilton_rates" '("mechanical") "linmodel/rates_of_scenes"
        "linmodel_hamilton_rates" *linmodel-program-inputs*)

@@ -72,6 +72,7 @@
    :status status :moment moment :state state :step step
    :about (case status
             (:not-finite "the rates have no finite value in a step of Gauss' method")
-            (:no-convergence "the stages do not converge: the step is too long or the system stiff")
+            (:no-convergence
+             "the stages of Gauss' method do not converge: too long a step, or a stiff system")
             (t (format nil "Gauss' method of order ~d, steps of ~a" (* 2 stages)
                        (numerics-short-number step))))))

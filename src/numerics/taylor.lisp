@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/program" "numerics/big_values"
+  (core-require "numerics/problem"
                 "numerics/taylor_numbers" "numerics/taylor_expansion" "numerics/taylor_run"))
 
 (defstruct (numerics-taylor-outcome (:include numerics-outcome))

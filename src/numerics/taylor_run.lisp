@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/taylor_numbers" "numerics/taylor_series" "numerics/taylor_expansion"))
+  (core-require "numerics/taylor_numbers" "numerics/taylor_expansion"))
 
 (defconstant numerics-taylor-guard-bits 32)
 
