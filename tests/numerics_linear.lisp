@@ -16,10 +16,11 @@
 
 ;;; Exact systems: a matrix is a vector of rows.
 
-(defun linear-matrix (n) (coerce (loop repeat n collect (make-array n :initial-element 0)) 'vector))
+(defun linear-matrix (n)
+  (coerce (loop repeat n collect (make-array n :initial-element 0)) 'vector))
 
 (defun linear-rank-and-solution (a columns)
-  "The rank of A, and its inverse times COLUMNS, rows of right sides, where it is square and regular."
+  "The rank of A, and its inverse times COLUMNS, rows of right sides, where there is one."
   (let* ((rows (map 'vector (lambda (row right) (concatenate 'vector row right)) a columns))
          (m (length rows)) (n (if (= m 0) 0 (length (aref a 0)))) (rank 0))
     (dotimes (j n)
@@ -131,10 +132,11 @@
        (if row (concatenate 'vector (subseq matrix 0 row) (subseq matrix (1+ row))) matrix)))
 
 (defun linear-named-p (case solver)
-  "Whether the column that SOLVER names follows from the others, and the row too where it is named."
+  "Whether the column that SOLVER names follows from the others, and the row where it is named."
   (let* ((matrix (linear-case-matrix case)) (rank (linear-rank matrix))
-         (row (numerics-solver-singular-row solver)))
-    (and (= rank (linear-rank (linear-without matrix nil (numerics-solver-singular-column solver))))
+         (row (numerics-solver-singular-row solver))
+         (column (numerics-solver-singular-column solver)))
+    (and (= rank (linear-rank (linear-without matrix nil column)))
          (or (null row) (= rank (linear-rank (linear-without matrix row nil)))))))
 
 (defun linear-right-p (case complex kind)
@@ -151,8 +153,8 @@
 (defun linear-kind (name) (intern (string-left-trim "$" (symbol-name name)) :keyword))
 
 (defun $linear_wrong (count largest share complex kind seed)
-  "How many of COUNT cases of at most LARGEST rows, with SHARE percent of their entries, go wrong, and
-whether more than a fiftieth of them was singular; none for KLU where it is not there."
+  "How many of COUNT cases of at most LARGEST rows, with SHARE percent of their entries, go wrong,
+and whether more than a fiftieth of them was singular; none for KLU where it is not there."
   (let ((*linear-seed* seed) (wrong 0) (singular 0) (kind (linear-kind kind)))
     (dotimes (k (if (or (not (eq kind :klu)) (numerics-find-klu)) count 0)
                 (list '(mlist simp) wrong (> singular (floor count 50))))
@@ -160,6 +162,52 @@ whether more than a fiftieth of them was singular; none for KLU where it is not 
         (unless (linear-right-p case complex kind) (incf wrong))
         (when (< (linear-rank (linear-case-matrix case)) (linear-case-n case))
           (incf singular))))))
+
+;;; Units: row i times 2^a_i changes nothing, and column j times 2^b_j makes nothing singular.
+
+(defun linear-in-units (values pattern rows columns)
+  (map 'vector (lambda (value i j) (* value (expt 2 (+ (aref rows i) (aref columns j)))))
+       values (numerics-pattern-rows pattern) (numerics-column-numbers pattern)))
+
+(defun linear-case-in-units (case rows columns)
+  (let* ((new (copy-linear-case case)) (mass (or (linear-case-mass case)
+                                                 (numerics-identity (linear-case-n case))))
+         (pattern (numerics-matrix-pattern mass)))
+    (setf (linear-case-entries new) (linear-in-units (linear-case-entries case)
+                                                     (linear-case-pattern case) rows columns)
+          (linear-case-mass new)
+          (make-numerics-matrix
+           :pattern pattern
+           :values (linear-doubles (linear-in-units (map 'vector #'rational
+                                                         (numerics-matrix-values mass))
+                                                    pattern rows columns))))
+    new))
+
+(defun linear-solution-or-column (case complex kind right)
+  "The solution, or the number of the column where CASE is singular."
+  (let ((solver (linear-solver case complex kind)))
+    (if (numerics-with-masked-traps
+          (numerics-factor solver (linear-doubles (linear-case-entries case))))
+        (numerics-solver-singular-column solver)
+        (linear-solved solver right))))
+
+(defun $linear_units (count largest complex kind seed)
+  "[how many of COUNT cases are solved otherwise in other units of their equations, how many are
+singular or not in those of their unknowns too]"
+  (let ((*linear-seed* seed) (kind (linear-kind kind)) (others 0) (singular 0))
+    (flet ((exponents (n) (coerce (loop repeat n collect (- (linear-random 161) 80)) 'vector)))
+      (dotimes (k count (list '(mlist simp) others singular))
+        (let* ((n (1+ (linear-random largest))) (case (linear-new-case n 50 complex))
+               (rows (exponents n)) (columns (exponents n))
+               (right (coerce (loop repeat n collect (linear-eighth)) 'vector))
+               (none (make-array n :initial-element 0)))
+          (flet ((solution (columns)
+                   (linear-solution-or-column
+                    (linear-case-in-units case rows columns) complex kind
+                    (map 'vector (lambda (x a) (* x (expt 2 a))) right rows))))
+            (let ((one (linear-solution-or-column case complex kind right)))
+              (unless (equalp one (solution none)) (incf others))
+              (unless (eq (numberp one) (numberp (solution columns))) (incf singular)))))))))
 
 ;;; Orders and choices.
 
@@ -206,6 +254,13 @@ whether more than a fiftieth of them was singular; none for KLU where it is not 
       (prog1 (string-downcase (symbol-name (numerics-solver-kind solver)))
         (numerics-release-solver solver)))))
 
+(defun $linear_remark (rows columns)
+  "What is said of the system of a grid without KLU."
+  (let* ((*numerics-klu* nil) (*linear-seed* 5))
+    (or (numerics-solver-remark
+         (numerics-make-solver (* rows columns) (linear-grid rows columns) nil))
+        "")))
+
 (defun $linear_full (n)
   "A system of N rows that only sparse elimination can do, without that."
   (let ((*numerics-klu* nil))
@@ -246,11 +301,12 @@ whether more than a fiftieth of them was singular; none for KLU where it is not 
 ;;; Pivots kept by KLU that no longer serve.
 
 (defun $linear_klu_pivots ()
-  "The error of a second system whose pivots are 10^-12 of what they were; 0 where there is no KLU."
+  "The error of a second system whose pivots are 10^-12 of what they were; 0 without KLU."
   (if (null (numerics-find-klu))
       0
       (let* ((pattern (numerics-full-pattern 3))
-             (solver (numerics-make-solver 3 pattern nil :kind :klu)) (x (linear-doubles '(1 2 3))))
+             (solver (numerics-make-solver 3 pattern nil :kind :klu))
+             (x (linear-doubles '(1 2 3))))
         (setf (numerics-solver-shift solver) 0d0)
         (unwind-protect
              (numerics-with-masked-traps

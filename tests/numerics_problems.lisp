@@ -85,7 +85,8 @@
 
 (defun test-outcome (outcome counts)
   "[status, time, states, [rates, jacobians, factorisations, steps, rejected, not finite], about]"
-  (test-list (intern (substitute #\_ #\- (format nil "$~a" (numerics-outcome-status outcome))) :maxima)
+  (test-list (intern (substitute #\_ #\- (format nil "$~a" (numerics-outcome-status outcome)))
+                     :maxima)
              (aref (numerics-outcome-moment outcome) 0)
              (test-numbers (numerics-outcome-state outcome))
              (test-list (numerics-counts-rates counts) (numerics-counts-jacobians counts)
@@ -102,15 +103,14 @@
            :scales (if absolute
                        (map 'numerics-vector (lambda (a) (/ a relative)) (test-vector absolute))
                        (numerics-zeros 0))
-           (loop for (nil key value) in settings
-                 append (list (intern (string-left-trim "$" (substitute #\- #\_ (symbol-name key)))
-                                      :keyword)
-                              (if (symbolp value)
-                                  (intern (string-left-trim "$" (substitute #\- #\_ (symbol-name value)))
-                                          :keyword)
-                                  value))))))
+           (flet ((word (symbol)
+                    (intern (string-left-trim "$" (substitute #\- #\_ (symbol-name symbol)))
+                            :keyword)))
+             (loop for (nil key value) in settings
+                   append (list (word key) (if (symbolp value) (word value) value)))))))
 
-(defun test-run (method problem span start tolerance settings &optional (observer (constantly nil)))
+(defun test-run (method problem span start tolerance settings
+                 &optional (observer (constantly nil)))
   (let ((controls (test-controls (car (last span)) tolerance settings)))
     (numerics-with-masked-traps
       (test-outcome (funcall method problem controls

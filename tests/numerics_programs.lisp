@@ -371,6 +371,13 @@
                (test-floats (numerics-pattern-starts (numerics-problem-pattern problem)))
                (test-floats (numerics-pattern-rows (numerics-problem-pattern problem))))))
 
+(defun $test_angles (record)
+  (apply #'test-list (numerics-problem-angles (numerics-problem-of-program record '()))))
+
+(defmspec $test_product (form)
+  ;; test_product(e): the value of e while no rows of a product become code.
+  (let ((*numerics-most-row-terms* 0)) (meval (second form))))
+
 (defun $test_rows (record names)
   "How many rates are rows of a product, and how many operations stay."
   (let* ((program (numerics-read-program record (cdr names)))
@@ -388,8 +395,8 @@
     (loop repeat 1000 do (funcall (the function function) time state out))))
 
 (defun $test_allocation (record names state)
-  "Bytes that 1000 calls of rates and Jacobian take, compiled and on the machine, at the least of three
-times: what another thread takes is not theirs."
+  "Bytes that 1000 calls of rates and Jacobian take, compiled and on the machine, at the least of
+three times: what another thread takes is not theirs."
   (let ((state (coerce (mapcar (lambda (x) (coerce x 'double-float)) (cdr state))
                        'numerics-vector))
         (time (numerics-moment 0.75d0)))
@@ -417,10 +424,9 @@ times: what another thread takes is not theirs."
                         'numerics-vector))
          (n (numerics-problem-size problem))
          (values (loop repeat 12
-                       collect (let ((out (numerics-zeros n)))
+                       collect (let ((out (numerics-zeros n)) (time (numerics-moment 0.75d0)))
                                  (numerics-with-masked-traps
-                                   (funcall (numerics-problem-rates problem) (numerics-moment 0.75d0)
-                                            state out))
+                                   (funcall (numerics-problem-rates problem) time state out))
                                  out))))
     (every (lambda (out) (test-same-values-p out (first values))) values)))
 

@@ -25,22 +25,23 @@
     (+ from (* share (- to from)))))
 
 (defun $test_radau_between (problem span start tolerance exact &rest settings)
-  "[largest error of the dense output, that at the ends of steps, largest misfit of the dense output
-at both ends of a step]: EXACT is the first state as a function of the time."
+  "[largest error of the dense output, that at the ends of steps, largest misfit of the dense
+output at both ends of a step]: EXACT is the first state as a function of the time."
   (let ((between 0) (at-ends 0) (misfit 0) (out (numerics-zeros (length (cdr start)))))
     (flet ((error-at (step share value)
              (abs (- value (test-value exact (test-share-of step share))))))
       (test-run 'numerics-radau problem span start tolerance settings
                 (lambda (step)
-                  (setq at-ends (max at-ends (error-at step 1d0 (aref (numerics-step-after step) 0))))
+                  (setq at-ends (max at-ends
+                                     (error-at step 1d0 (aref (numerics-step-after step) 0))))
                   (loop for share from 0d0 to 1d0 by 0.125d0
                         do (funcall (numerics-step-interpolate step) share out)
                            (setq between (max between (error-at step share (aref out 0)))))
                   (loop for (share state) in (list (list 0d0 (numerics-step-before step))
                                                    (list 1d0 (numerics-step-after step)))
                         do (funcall (numerics-step-interpolate step) share out)
-                           (setq misfit (reduce #'max (map 'list (lambda (x y) (abs (- x y))) out state)
-                                                :initial-value misfit)))
+                           (map nil (lambda (x y) (setq misfit (max misfit (abs (- x y)))))
+                                out state))
                   nil))
       (test-list between at-ends misfit))))
 

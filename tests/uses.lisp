@@ -54,15 +54,27 @@
                    ((eval-when progn let flet labels macrolet) (uses-lisp-definitions (cddr form)))
                    (t (mapcar #'uses-symbol-name (definitions-of form)))))))
 
-(defun uses-record-names (form)
-  (destructuring-bind (name documentation &rest fields) (cdr form)
+(defvar *uses-fields* '() "(record . fields), of the records read so far.")
+
+(defun uses-record-fields (form)
+  "The fields of a record, those of the record that it adds to first, which is read before it."
+  (destructuring-bind (name-and-parent documentation &rest fields) (cdr form)
     (declare (ignore documentation))
-    (let ((fields (mapcar (lambda (field) (if (consp field) (car field) field)) fields))
-          (plain (substitute #\_ #\- (string-downcase name))))
-      (append (mapcar #'uses-symbol-name (definitions-of `(defstruct ,name ,@fields)))
-              (list plain (format nil "~a_with" plain))
-              (loop for field in fields
-                    collect (format nil "~a_~a" plain (substitute #\_ #\- (string-downcase field))))))))
+    (destructuring-bind (name &optional parent)
+        (if (consp name-and-parent) name-and-parent (list name-and-parent))
+      (let ((all (append (cdr (assoc parent *uses-fields*))
+                         (mapcar (lambda (field) (if (consp field) (car field) field)) fields))))
+        (push (cons name all) *uses-fields*)
+        all))))
+
+(defun uses-record-names (form)
+  (let* ((fields (uses-record-fields form))
+         (name (if (consp (second form)) (car (second form)) (second form)))
+         (plain (substitute #\_ #\- (string-downcase name))))
+    (append (mapcar #'uses-symbol-name (definitions-of `(defstruct ,name ,@fields)))
+            (list plain (format nil "~a_with" plain))
+            (loop for field in fields
+                  collect (format nil "~a_~a" plain (substitute #\_ #\- (string-downcase field)))))))
 
 (defun uses-lisp-names (forms)
   (let ((names '()))
@@ -137,25 +149,48 @@
                   (not (search "core_require" line)))
           collect (subseq line 0 end)))
 
+;;; What core_require names, in either language
+
+(defun uses-quoted (text)
+  "What stands between quotes in TEXT, which has no comments."
+  (loop for begin = (position #\" text) then (position #\" text :start (1+ end))
+        while begin
+        for end = (position #\" text :start (1+ begin))
+        collect (subseq text (1+ begin) end)))
+
+(defun uses-required (text)
+  (loop for begin = (search "core_require" text) then (search "core_require" text :start2 end)
+        while begin
+        for end = (position #\) text :start begin)
+        append (uses-quoted (subseq text begin end))))
+
 ;;; Who uses what
 
-(defstruct uses-part name defined used declared)
+(defstruct uses-part name defined used declared required acts)
 
 (defun uses-read (part)
   (let ((file (uses-file part)))
     (if (search ".lisp" file)
         (let ((forms (uses-forms file)))
           (make-uses-part :name part :defined (uses-lisp-definitions forms)
-                          :used (uses-lisp-names forms) :declared (uses-lisp-declared forms)))
+                          :used (uses-lisp-names forms) :declared (uses-lisp-declared forms)
+                          :required (uses-required (substitute #\_ #\- (uses-text file)))
+                          :acts (uses-acts-p forms)))
         (multiple-value-bind (plain quoted) (uses-plain (uses-text file))
           (make-uses-part :name part :defined (uses-mac-definitions plain)
-                          :used (uses-words plain) :declared quoted)))))
+                          :used (uses-words plain) :declared quoted
+                          :required (uses-required (uses-text file)))))))
+
+(defvar *uses-known* nil "All parts, read once.")
+
+(defun uses-known ()
+  (or *uses-known* (setq *uses-known* (mapcar #'uses-read (uses-parts)))))
 
 (defun uses-room (part) (subseq part 0 (position #\/ part)))
 
 (defun uses-arrows ()
   "(user other (name ..)) for each part that uses names of another."
-  (let ((parts (mapcar #'uses-read (uses-parts))) (home (make-hash-table :test #'equal)) (arrows '()))
+  (let ((parts (uses-known)) (home (make-hash-table :test #'equal)) (arrows '()))
     (dolist (part parts)
       (dolist (name (uses-part-defined part)) (setf (gethash name home) (uses-part-name part))))
     (dolist (part parts (nreverse arrows))
@@ -178,6 +213,27 @@
                           (member other (uses-part-declared part) :test #'string=))
                  collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
 
+(defun uses-acts-p (forms)
+  "Whether a part does something by being loaded: gives a judge to another part, fills a register."
+  (find-if (lambda (form) (and (consp form) (member (car form) '(setq core-kind core-option)))) forms))
+
+(defun uses-needed-p (part other)
+  "Whether PART uses a name that the part called OTHER defines, or OTHER acts."
+  (let ((other (find other (uses-known) :key #'uses-part-name :test #'string=)))
+    (or (uses-part-acts other)
+        (intersection (uses-part-used part) (uses-part-defined other) :test #'string=))))
+
+(defun $uses_needless ()
+  "[[part, others], ..]: parts that a part declares by core_require and of which it uses no name.
+The core is left out: it reads its chapters for all."
+  (apply #'uses-list
+         (loop for part in (uses-known)
+               for needless = (unless (string= (uses-room (uses-part-name part)) "core")
+                                (remove-if (lambda (other) (uses-needed-p part other))
+                                           (uses-part-required part)))
+               when needless
+                 collect (uses-list (uses-part-name part) (apply #'uses-list needless)))))
+
 (defun uses-may-p (room other) (member other (core-rooms-used room) :test #'string=))
 
 (defun $uses_closed_rooms ()
@@ -194,6 +250,24 @@
          (loop for (part other names) in (uses-arrows)
                unless (uses-may-p (uses-room (uses-part-name part)) (uses-room other))
                  collect (uses-list (uses-part-name part) other (apply #'uses-list names)))))
+
+(defun $uses_defined_twice ()
+  "[[name, part, part], ..]: the later definition would replace the earlier in silence."
+  (let ((home (make-hash-table :test #'equal)) (twice '()))
+    (dolist (part (uses-known) (apply #'uses-list twice))
+      (dolist (name (uses-part-defined part))
+        (let ((other (gethash name home)))
+          (when (and other (string/= other (uses-part-name part)))
+            (push (uses-list name other (uses-part-name part)) twice)))
+        (setf (gethash name home) (uses-part-name part))))))
+
+(defun $uses_shared_names ()
+  "Names that files of two rooms have; each room has a register."
+  (let ((names (loop for part in (uses-parts)
+                     collect (subseq part (1+ (position #\/ part))))))
+    (apply #'uses-list
+           (loop for (name . more) on (remove "register" names :test #'string=)
+                 when (member name more :test #'string=) collect name))))
 
 ;;; What nothing uses. A piece is a form of Lisp, or the lines from one definition of Maxima to the
 ;;; next: what a piece defines must stand in another one, as a name or as a text between quotes (so

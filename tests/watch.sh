@@ -43,7 +43,7 @@ growth() {
   printf 'print(">>", RootCount(x^2 - 3*x + 1, x))$\n'
 }
 
-sentence='Grow: stopped while computing Grow: NN % of Maxima'"'"'s memory of HEAP MB is in use; give numbers to some parameters, or start Maxima with a larger heap'
+sentence='Grow: stopped while computing Grow: NN % of Maxima'"'"'s memory of HEAP MB is in use; start Maxima with a larger heap'
 for heap in 512 1024; do
   expected=$(printf '%s\n' "$sentence" | sed "s/HEAP/$heap/")
   log=$(growth | maxima $heap)

@@ -19,8 +19,8 @@
 (defparameter *algebra-basis-work* 400000 "coefficients that a basis may cost: some seconds")
 
 (defun $algebra_triangular (polynomials names)
-  "[lexicographic Groebner basis, greatest first; parameters taken as not zero]; false where it is
-too long, or where there are roots or functions of the unknowns or bound parameters."
+  "[lexicographic Groebner basis, greatest first; parameters taken as not zero]; false where there
+are roots or functions of the unknowns or bound parameters; where it is too long a sentence."
   (algebra-with-polynomials polynomials names
     (lambda (terms numbers kernels)
       (let ((*algebra-taken* nil))
@@ -30,20 +30,24 @@ too long, or where there are roots or functions of the unknowns or bound paramet
               (cons '(mlist simp) (mapcar #'algebra-general *algebra-taken*)))))))
 
 (defun $algebra_real_points (polynomials names)
-  "The number of real common roots; false where there are infinitely many, or parameters."
-  (algebra-with-polynomials polynomials names
-    (lambda (terms numbers kernels)
-      (declare (ignore kernels))
-      (and numbers
-           (let* ((*algebra-degree-order* t)
-                  (basis (algebra-basis-of (algebra-sorted-polynomials terms)))
-                  (standard (algebra-standard-monomials basis)))
-             (and (listp standard)
-                  (if standard (algebra-real-point-count basis standard) 0)))))))
+  "The number of real common roots; false where there are infinitely many, parameters, or too much."
+  (let ((count (algebra-with-polynomials polynomials names
+                 (lambda (terms numbers kernels)
+                   (declare (ignore kernels))
+                   (and numbers
+                        (let ((*algebra-degree-order* t))
+                          (algebra-real-points-of
+                           (algebra-basis-of (algebra-sorted-polynomials terms)))))))))
+    (if (stringp count) nil count)))
+
+(defun algebra-real-points-of (basis)
+  (let ((standard (algebra-standard-monomials basis)))
+    (and (listp standard)
+         (if standard (algebra-real-point-count basis standard) 0))))
 
 (defun algebra-with-polynomials (polynomials names function)
   "FUNCTION of the terms of POLYNOMIALS, of whether all coefficients are numbers, and of the kernels
-of NAMES; nil where it gives up."
+of NAMES; nil where it does not apply, a sentence where it gives up."
   (with-algebra-ring
     (let* ((*algebra-may-give-up* t)
            (*algebra-work-left* (core-sized *algebra-basis-work*))
@@ -55,7 +59,15 @@ of NAMES; nil where it gives up."
                          (let ((terms (algebra-monomials-of-all skeletons kernels)))
                            (algebra-require-exponents terms)
                            (funcall function terms (algebra-number-terms-p terms) kernels))))))
-      (if (eq answer 'too-large) nil answer))))
+      (if (eq answer 'too-large) (algebra-basis-given-up) answer))))
+
+(defun algebra-basis-given-up ()
+  "What stopped the basis and lifts the limit; nil where there was none to begin with."
+  (let ((most *algebra-basis-work*))
+    (if (minusp *algebra-work-left*)
+        (format nil "a Groebner basis was given up after ~D coefficients, the limit being ~D; ~A"
+                (- (core-sized most) *algebra-work-left*) (core-sized most)
+                (core-size-advice nil most)))))
 
 (defun algebra-polynomial-kernels-p (kernels)
   "Whether the others are parameters, free of the names and of each other."

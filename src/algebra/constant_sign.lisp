@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/interval"))
+  (core-require "algebra/size" "algebra/interval" "algebra/noun_values"))
 
 ;;; How small a real algebraic number can be that is not 0.  A constant is U/(m*L) with algebraic
 ;;; integers U, L and a whole m; u and l bound U and L in every embedding of their field, of degree
@@ -240,7 +240,8 @@
              (%cot (algebra-plain-ratio '%cos '%sin (cadr e)))
              (%sec (algebra-plain-ratio nil '%cos (cadr e)))
              (%csc (algebra-plain-ratio nil '%sin (cadr e)))
-             (t e)))))
+             (t (let ((value (algebra-noun-value e)))
+                  (if value (algebra-plain-constant value) e)))))))
 
 (defun algebra-plain-ratio (above below angle)
   (flet ((of (f) (if f (simplify (list (list f) angle)) 1)))

@@ -8,11 +8,13 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels"))
+  (core-require "algebra/size" "algebra/noun_values" "algebra/nouns"))
 
 (defvar *algebra-interval-bits* 64)
 (defvar *algebra-point* nil "values of symbols and open functions: (expression . rational), ..")
-(defvar *algebra-coordinate* nil "function that gives a symbol its value; nil: constants only")
+(defvar *algebra-dummies* '() "intervals of dummy variables: (name . interval), ..")
+(defvar *algebra-coordinate* nil
+  "function that gives a symbol or open function its value; nil: constants only")
 
 (defun algebra-interval-sign-among (e widths)
   (loop for bits in widths
@@ -61,21 +63,58 @@
       (%acos (algebra-i- (algebra-i* (algebra-i 1/2) (algebra-i-pi))
                          (algebra-i-asin (algebra-i-of x))))
       (mabs (algebra-i-abs (algebra-i-of x)))
-      (t (algebra-i-unknown e)))))
+      (t (algebra-i-noun e)))))
+
+(defun algebra-i-noun (e)
+  "By its value; else an integral by parts of the interval, an open function as it is given."
+  (let ((value (let ((*algebra-nouns-apart* t)) (algebra-noun-value e))))
+    (cond (value (algebra-i-of value))
+          ((and (eq (caar e) '%integrate) (= (length e) 5) (not (algebra-has-open-p (cadr e))))
+           (algebra-i-integral (cdr e)))
+          (t (algebra-i-unknown e)))))
+
+(defun algebra-i-integral (parts)
+  "The sum over equal parts, on each of which the integrand lies in an interval: wide intervals, 64
+digits are enough."
+  (when (> *algebra-interval-bits* 256) (throw 'no-interval nil))
+  (let* ((more (- *algebra-interval-bits* 64))
+         (sum (let ((*algebra-interval-bits* 64))
+                (algebra-i-rectangles parts (if (plusp more) 256 32)))))
+    (algebra-i-scale-up sum more)))
+
+(defun algebra-i-rectangles (parts count)
+  (destructuring-bind (body s low high) parts
+    (let* ((start (algebra-i-of low))
+           (step (algebra-i-over (algebra-i- (algebra-i-of high) start) count))
+           (sum (algebra-i 0)))
+      (dotimes (k count (algebra-i* sum step))
+        (let ((*algebra-dummies*
+                (acons s (algebra-i+ start (algebra-i* step (cons (* k (algebra-i-unit))
+                                                                  (* (1+ k) (algebra-i-unit)))))
+                       *algebra-dummies*)))
+          (setq sum (algebra-i+ sum (algebra-i-of body))))))))
 
 (defun algebra-i-tangent (angle)
   (algebra-i/ (cdr angle) (car angle)))
 
 (defun algebra-i-unknown (e)
   "The value given to a symbol or an open function at the point tried."
-  (unless (and *algebra-coordinate*
-               (or (and (symbolp e) (not ($constantp e)))
-                   (and (consp e) (algebra-open-p e))))
-    (throw 'no-interval nil))
   (let ((key (if (atom e) e (algebra-canonical-noun e))))
-    (algebra-i
-     (cdr (or (assoc key *algebra-point* :test #'alike1)
-              (car (push (cons key (funcall *algebra-coordinate*)) *algebra-point*)))))))
+    (cond ((cdr (assoc e *algebra-dummies* :test #'eq)))
+          ((assoc key *algebra-point* :test #'alike1)
+           (algebra-i (cdr (assoc key *algebra-point* :test #'alike1))))
+          ((or (null *algebra-coordinate*) (algebra-bound-at-point-p e key))
+           (throw 'no-interval nil))
+          (t (push (cons key (funcall *algebra-coordinate* key)) *algebra-point*)
+             (algebra-i (cdar *algebra-point*))))))
+
+(defun algebra-bound-at-point-p (e key)
+  "Whether E, or KEY as it is written for all, is constant or may be bound to what has a value."
+  (if (symbolp e)
+      ($constantp e)
+      (or (not (algebra-independent-noun-p key))
+          (some (lambda (name) (among name e)) (mapcar #'car *algebra-dummies*))
+          (some (lambda (entry) (algebra-bound-nouns-p key (car entry))) *algebra-point*))))
 
 ;;; Arithmetic.
 

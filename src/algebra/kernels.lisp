@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size"))
+  (core-require "algebra/size" "algebra/nouns"))
 
 (defstruct (algebra-kernel (:conc-name algebra-kernel-))
   variable        ; the polynomials' own symbol
@@ -134,58 +134,24 @@
         ((mexptp factor) (and (integerp (caddr factor))
                               (algebra-independent-factor-p (cadr factor))))
         ((member (caar factor) '(mplus mtimes)) nil)
-        (t (algebra-open-p factor))))
+        (t (and (algebra-independent-noun-p factor)
+                (every #'algebra-transparent-p (cdr factor))))))
 
-(defun algebra-open-p (e)
-  "An open function or noun: nothing is known that could bind it to other kernels."
-  (let ((operator (caar e)))
-    (or (member operator '(%derivative %integrate %at mqapply))
-        (member 'array (car e))
-        (not (or (get operator 'operators) (get operator 'grad))))))
-
-;;; Opaque kernels: open functions f(u), derivatives, integrals.  Their arguments are normal, dummy
-;;; variables renamed: 'integrate(g(z), z, 0, u) is 'integrate(g(s), s, 0, u).
-
-(defvar *algebra-argument-form* 'identity "the normal form of arguments, set by normal.lisp")
-
-(defun algebra-argument-form (e)
-  (funcall *algebra-argument-form* e))
+;;; Opaque kernels: open functions f(u), derivatives, integrals, as nouns.lisp writes them.  One
+;;; that may be bound to another one is no proof: both are unsure.
 
 (defun algebra-opaque-kernel (e)
   (let ((canonical (algebra-canonical-noun e)))
     (or (algebra-find-opaque canonical)
         (let ((kernel (algebra-new-kernel canonical (if (eq (caar e) '%derivative) 4 3)
-                                          (algebra-open-p e))))
+                                          (algebra-independent-noun-p canonical))))
+          (algebra-mark-bound kernel)
           (push (cons canonical kernel) (algebra-ring-opaque *algebra-ring*))
           kernel))))
 
-(defun algebra-canonical-noun (e)
-  "E with normal arguments; an integral with its dummy variable renamed."
-  (case (caar e)
-    (%derivative e)
-    ((%integrate %sum %product)
-     (if (and (cdddr e) (symbolp (caddr e)))
-         (algebra-rename-dummy e)
-         e))
-    (t (cons (car e) (mapcar #'algebra-normal-argument (cdr e))))))
-
-(defun algebra-normal-argument (argument)
-  (cond ((atom argument) argument)
-        ((mbagp argument) (cons (car argument) (mapcar #'algebra-normal-argument (cdr argument))))
-        ((member (caar argument) '(mequal lambda mgreaterp mgeqp mlessp mleqp mand mor mcond))
-         argument)
-        (t (algebra-argument-form argument))))
-
-(defun algebra-rename-dummy (e)
-  "The dummy variable becomes s, or s1, s2, .. where the rest of the noun has s."
-  (destructuring-bind (integrand variable . limits) (cdr e)
-    (let ((dummy (algebra-free-dummy variable (cons '(mlist) (cons integrand limits)))))
-      (list* (car e)
-             (algebra-normal-argument (maxima-substitute dummy variable integrand))
-             dummy
-             (mapcar #'algebra-normal-argument limits)))))
-
-(defun algebra-free-dummy (variable e)
-  (loop for name in '($s $s1 $s2 $s3 $s4 $s5)
-        when (or (eq name variable) (not (among name e))) return name
-        finally (return variable)))
+(defun algebra-mark-bound (kernel)
+  (loop for (expression . other) in (algebra-ring-opaque *algebra-ring*)
+        do (when (and (algebra-kernel-sure other)
+                      (algebra-bound-nouns-p (algebra-kernel-expression kernel) expression))
+             (setf (algebra-kernel-sure kernel) nil
+                   (algebra-kernel-sure other) nil))))

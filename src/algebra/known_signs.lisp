@@ -8,7 +8,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/normal" "algebra/sign_by_parts" "algebra/sign_by_proof"
-                "algebra/factoring" "algebra/evaluate" "algebra/root_kernels" "algebra/scan"))
+                "algebra/factoring" "algebra/evaluate" "algebra/noun_values" "algebra/root_kernels"
+                "algebra/scan"))
 
 (defparameter *algebra-kept-knowledge* 16 "For how many lists of facts knowledge is kept.")
 (defvar *algebra-knowledges* '() "Knowledge of lists of facts used lately, newest first.")
@@ -82,7 +83,8 @@
 (defun algebra-known-apart ()
   "What is known, its normal forms not those of the zero test, and none of them given up."
   (let ((*algebra-may-give-up* nil) (*algebra-roots-apart* nil)
-        (*algebra-exponential-form* nil) (*algebra-every-multiple* nil))
+        (*algebra-exponential-form* nil) (*algebra-every-multiple* nil)
+        (*algebra-nouns-apart* nil))
     (algebra-what-is-known)))
 
 (setq *algebra-sign-judge* 'algebra-sign-in-root)

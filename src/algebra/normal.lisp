@@ -9,8 +9,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/kernels" "algebra/scan" "algebra/evaluate"
-                "algebra/readable" "algebra/general_form" "algebra/zero" "algebra/quotient"
-                "algebra/relations"))
+                "algebra/readable" "algebra/general_form" "algebra/nouns" "algebra/zero"
+                "algebra/quotient" "algebra/relations"))
 
 (defun $algebra_normal (e)
   (algebra-map-bags #'algebra-normal-form e))

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/constant_sign" "algebra/factoring"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/nouns" "algebra/constant_sign"
+                "algebra/factoring"))
 
 (defvar *algebra-roots-apart* nil "true: roots of products become products of roots where allowed")
 (defvar *algebra-sign-judge* nil "the sign of what is no number, by the facts; set by facts.lisp")

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/root_kernels"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/noun_values" "algebra/nouns"
+                "algebra/root_kernels"))
 
 (defvar *algebra-exponential-form* nil "true: sinh and cosh become exponentials")
 
@@ -59,7 +60,8 @@
                          (algebra-scan-hyperbolic-sine (cadr e))))
     (%sech (algebra-over 1 (algebra-scan-hyperbolic-cosine (cadr e))))
     (%csch (algebra-over 1 (algebra-scan-hyperbolic-sine (cadr e))))
-    (t (algebra-opaque-kernel e))))
+    (t (let ((value (algebra-noun-value e)))
+         (if value (algebra-scan value) (algebra-opaque-kernel e))))))
 
 ;;; Hyperbolic functions: pairs of their own, or exponentials.
 

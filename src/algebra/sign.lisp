@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/zero" "algebra/known_signs" "algebra/sign_by_bounds"
-                "algebra/packed_polynomials" "algebra/sign_by_parts"))
+  (core-require "algebra/size" "algebra/nouns" "algebra/zero" "algebra/known_signs"
+                "algebra/sign_by_bounds" "algebra/packed_polynomials" "algebra/sign_by_parts"))
 
 (defun $algebra_sign (e)
   "pos, neg, zero, pz (>= 0), nz (<= 0), pn (not zero) or unknown."
@@ -46,7 +46,7 @@
       (algebra-opposed-p sign ($algebra_sign e)))))
 
 (defun algebra-sign (e)
-  (if ($constantp e)
+  (if (algebra-constant-p e)
       (algebra-constant-sign e)
       (let ((sign (algebra-simple-sign e)))
         (if (member sign '($pos $neg $zero))

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/zero" "algebra/constant_sign"))
+  (core-require "algebra/size" "algebra/noun_values" "algebra/nouns" "algebra/zero"
+                "algebra/constant_sign"))
 
 (defstruct (algebra-knowledge (:conc-name knowledge-))
   facts           ; the relations it was made from
@@ -20,7 +21,7 @@
 (defvar *algebra-knowledge* nil "What is known of names, kernels and sums.")
 
 (defun algebra-part-sign (e)
-  (if ($constantp e) (algebra-constant-sign e) (algebra-simple-sign e)))
+  (if (algebra-constant-p e) (algebra-constant-sign e) (algebra-simple-sign e)))
 
 (defun algebra-constant-sign (e)
   (let ((number (algebra-rational-number e)))
@@ -151,7 +152,8 @@
              (algebra-largest-sign
               (mapcar (lambda (part) (algebra-opposite-sign (algebra-part-sign part)))
                       arguments))))
-      (t '$unknown))))
+      (t (let ((value (algebra-noun-value e)))
+           (if value (algebra-part-sign value) '$unknown))))))
 
 (defun algebra-largest-sign (signs)
   "The sign of the largest of numbers with these SIGNS."

@@ -93,9 +93,9 @@
   (when (> predicted *algebra-limit*)
     (when *algebra-may-give-up* (throw 'algebra-too-large 'too-large))
     (setq *core-too-large* t)
-    (core-error "~A would have about ~A terms, more than the ~A that are safe; ~
-                 give numbers to some parameters~@[ or ~A~]"
-                what (algebra-about predicted) *algebra-limit* advice)))
+    (core-error "~A would have about ~A terms, more than the ~A that are safe~A"
+                what (algebra-about predicted) *algebra-limit*
+                (core-advised (core-number-advice) advice))))
 
 (defun algebra-about (n)
   "Two leading digits of a large number."

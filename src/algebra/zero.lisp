@@ -13,8 +13,9 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/constant_sign" "algebra/evaluate" "algebra/interval"
-                "algebra/kernels" "algebra/modular" "algebra/normal" "algebra/readable"
-                "algebra/relations" "algebra/root_kernels" "algebra/scan"))
+                "algebra/kernels" "algebra/modular" "algebra/normal" "algebra/noun_values"
+                "algebra/nouns" "algebra/random_numbers" "algebra/readable" "algebra/relations"
+                "algebra/root_kernels" "algebra/scan"))
 
 ;;; Does a reduced polynomial vanish?  Kernels are independent (symbols, open functions, angles) or
 ;;; constants; as a polynomial in the former it vanishes with its coefficients, which the sign of a
@@ -34,7 +35,7 @@
           collect kernel))
 
 (defun algebra-constant-kernel-p (kernel)
-  ($constantp (algebra-kernel-expression kernel)))
+  (algebra-constant-p (algebra-kernel-expression kernel)))
 
 (defun algebra-coefficients-test (p)
   "A polynomial in independent kernels whose coefficients are constants: test each of these."
@@ -125,10 +126,12 @@
 ;;; The proof
 
 (defun algebra-zero-test (e)
-  (case (or (and ($constantp e) (algebra-constant-verdict e)) (algebra-remainder-test e))
+  (case (or (and (algebra-constant-p e) (algebra-constant-verdict e)) (algebra-remainder-test e))
     ((0 zero) t)
     ((1 -1 not-zero) nil)
-    (t (if (algebra-nonzero-somewhere-p e) nil '$unknown))))
+    (t (if (and (not (algebra-constant-p e)) (algebra-nonzero-somewhere-p e)) nil '$unknown))))
+
+(setq *algebra-zero-judge* 'algebra-zero-test)
 
 (defun algebra-decided-zero-p (e)
   "Whether E vanishes; an error where that is not decided."
@@ -143,8 +146,9 @@
 
 (defmacro with-algebra-zero-form (&body body)
   "Expressions are read as a zero test wants them: hyperbolic functions as exponentials, roots of
-products apart, all multiples of angles expanded."
-  `(let ((*algebra-exponential-form* t) (*algebra-roots-apart* t) (*algebra-every-multiple* t))
+products apart, all multiples of angles expanded, nouns taken apart."
+  `(let ((*algebra-exponential-form* t) (*algebra-roots-apart* t) (*algebra-every-multiple* t)
+         (*algebra-nouns-apart* t))
      ,@body))
 
 (defun algebra-remainder-test (e)
@@ -268,22 +272,21 @@ products apart, all multiples of angles expanded."
         thereis (algebra-nonzero-at-p e attempt)))
 
 (defun algebra-nonzero-at-p (e attempt)
-  (let* ((seed (* attempt 7919))
-         (*algebra-point* nil)
-         (*algebra-coordinate*
-           (lambda ()
-             (setq seed (mod (+ (* seed 1103515245) 12345) 2147483648))
-             (algebra-point-coordinate (floor seed 65536) attempt))))
+  (let ((*algebra-point* nil)
+        (*algebra-coordinate* (lambda (name) (algebra-point-coordinate name attempt))))
     (and (not (algebra-facts-fail-p))
          (algebra-interval-sign-at e 192))))
 
-(defun algebra-point-coordinate (random attempt)
-  (let ((fraction (/ (+ 1 (mod random 96)) 97)))
-    (ecase (mod attempt 4)
-      (1 fraction)
-      (2 (+ 1 fraction))
-      (3 (* fraction (if (oddp (floor random 128)) 5 -5)))
-      (0 (* 30 fraction)))))
+(defun algebra-point-coordinate (name attempt)
+  "Between 0 and 1, above 1, of either sign, or large: four sorts of ATTEMPT in turn."
+  (multiple-value-bind (above rest)
+      (algebra-random-below 96 (algebra-random-state name attempt))
+    (let ((fraction (/ (1+ above) 97)))
+      (ecase (mod attempt 4)
+        (1 fraction)
+        (2 (+ 1 fraction))
+        (3 (* fraction (if (zerop (algebra-random-below 2 rest)) 5 -5)))
+        (0 (* 30 fraction))))))
 
 (defun algebra-facts-fail-p ()
   (loop for fact in (core-facts)

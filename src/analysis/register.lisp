@@ -22,6 +22,17 @@
 (defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
 (defparameter *analysis-variables* (list "variables" *analysis-none*))
 
+;;; Arguments. K is a function, and a matrix where forces are given by theirs.
+
+(core-argument :formula "K" "polynomial")
+(core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
+(core-argument :variables "variables")
+(core-argument :variable "lambda" "u")
+(core-argument :solution "solution")
+(core-argument :rates "equations")
+(core-argument :integrals "integrals")
+(core-argument :vanishing "within" "manifold")
+
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
 
 ;;; Stationary sets
@@ -64,13 +75,13 @@
 
 ;;; The motion that is asked about
 
-(core-rule "special_cases" :any "analysis/records" "analysis_special_cases"
+(core-rule "special_cases" :any "analysis/motion_records" "analysis_special_cases"
   *analysis-where* *analysis-laws*)
-(core-rule "special_cases_sought" :any "analysis/records" "analysis_special_cases"
+(core-rule "special_cases_sought" :any "analysis/motion_records" "analysis_special_cases"
   *analysis-where* *analysis-laws* *analysis-unknowns*)
-(core-rule "motion" *analysis-states* "analysis/motion" "analysis_state_motion"
+(core-rule "motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
-(core-rule "motion" *analysis-motions* "analysis/motion" "analysis_lagrange_motion"
+(core-rule "motion" *analysis-motions* "analysis/given_solution" "analysis_lagrange_motion"
   "LagrangeEquations" "coordinates" "solution" "special_cases")
 (core-rule "routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"

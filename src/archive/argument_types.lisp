@@ -53,29 +53,12 @@ and always have values."
   "As *archive-types*, for what is typed in the session: velocities are 'diff(q,t), names may have
 subscripts, and a formula may stand for a law of its own.")
 
-(defparameter *archive-argument-names*
-  '((:formula "Lagrangian" "MixedPotential" "polynomial" "lagrangian" "hamiltonian")
-    (:shape "expression" "f" "g")
-    (:variables "coordinates" "variables")
-    (:variable "lambda" "u")
-    (:motion "motion" "start")
-    (:solution "solution")
-    (:rates "equations")
-    (:integrals "integrals")
-    (:branches "inductances" "capacitances")
-    (:interval "time")
-    (:vanishing "within" "manifold")
-    (:square "A" "M" "S" "W" "D" "G" "P"))
-  "Arguments by their types; of the others the type is that of the key of [system].")
-
 (defun archive-argument-type (name kind)
-  "The type of the argument or option NAME in a call of KIND, or nil. K is a function to some
-functions and a matrix to others."
-  (let ((key (archive-find-key nil "system" name)))
-    (cond ((string= name "K") (if (string= kind "forces") :square :formula))
-          ((car (find-if (lambda (row) (member name (cdr row) :test #'string=))
-                         *archive-argument-names*)))
-          (key (archive-key-type key)))))
+  "The type of the argument or option NAME in a call of KIND, or nil."
+  (or (gethash (list name kind) *core-arguments*)
+      (gethash name *core-arguments*)
+      (let ((key (archive-find-key nil "system" name)))
+        (and key (archive-key-type key)))))
 
 (defun archive-argument-row (type)
   (or (assoc type *archive-argument-types*) (assoc type *archive-types*)))

@@ -275,11 +275,11 @@ COUNTING is the key of [system] that gives the number."
 
 (defun archive-system-group (kind groups)
   "The group [system]; an empty one where it is left out and nothing in it is required."
-  (let ((meant (core-nearest "system" (mapcar #'archive-group-section groups))))
-    (cond ((archive-find-group groups "system"))
-          ((or meant (archive-system-needed-p kind))
-           (core-error "there is no section [system]~@[; is [~a] meant for it?~]" meant))
-          (t (make-archive-group :section "system")))))
+  (or (archive-find-group groups "system")
+      (let ((meant (core-nearest "system" (mapcar #'archive-group-section groups))))
+        (when (or meant (archive-system-needed-p kind))
+          (core-error "there is no section [system]~@[; is [~a] meant for it?~]" meant))
+        (make-archive-group :section "system"))))
 
 (defun archive-completed (kind system groups)
   "Two values: SYSTEM and GROUPS with what the keys and sections of this KIND imply."

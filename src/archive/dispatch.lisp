@@ -15,7 +15,9 @@
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-place* nil) (*core-warnings* '())
         (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
-        (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*) (*core-partial* nil))
+        (*core-has-parameters* t)
+        (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*)
+        (*core-partial* nil))
     (setq arguments (archive-arguments-taken arguments)
           *core-cheaper* (archive-cheaper name arguments)
           *core-size* (archive-size-factor arguments))
@@ -168,13 +170,38 @@ none."
             (archive-map-parts #'note entry)))))
     names))
 
+(defun archive-has-parameters-p (call)
+  "Whether the system of CALL has names that are given no motion."
+  (let ((archive (archive-call-archive call)))
+    (if archive
+        (let ((description (archive-description archive)))
+          (or (archive-used-names ($core_get description '$parameters '((mlist))))
+              (archive-free-symbols (archive-kind archive) description)))
+        (archive-argument-parameters (archive-call-given call)))))
+
+(defun archive-argument-parameters (given)
+  "Names in the arguments GIVEN that none of them lists, differentiates or has on its left side."
+  (let ((used '()) (listed '($t)))
+    (loop for value being the hash-values of given
+          do (if (archive-equation-p value) (push (second value) listed))
+             (dolist (part (if (archive-list-p value) (cdr value) (list value)))
+               (cond ((symbolp part) (push part listed))
+                     ((and (archive-equation-p part) (symbolp (second part)))
+                      (push (second part) listed)
+                      (setq used (union used (archive-used-names (third part)))))
+                     (t (setq used (union used (archive-used-names part)))))))
+    (loop for value being the hash-values of given
+          do (setq listed (append (archive-differentiated-names value) listed)))
+    (set-difference used listed)))
+
 (defun archive-word-key-p (name)
   "Whether the value of the key NAME is a word of ours, such as field = constant, and no name."
   (member name '("kind" "field" "sign" "algebra") :test #'equal))
 
 (defun archive-run (call)
   "The value of the call's target, computed in the guard; new steps are saved."
-  (setq *core-names* (archive-call-names call))
+  (setq *core-names* (archive-call-names call)
+        *core-has-parameters* (lambda () (archive-has-parameters-p call)))
   (archive-refuse-property-words *core-names*)
   (core-guarded (archive-call-facts call)
                 (lambda ()

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/parser" "archive/rows" "archive/sections"
+  (core-require "archive/keys" "archive/parser" "archive/circuit_rows" "archive/sections"
                 "archive/types"))
 
 (defstruct archive

@@ -11,7 +11,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/types" "core/nearest"))
+  (core-require "archive/types"))
 
 (defparameter *archive-analysis-keys*
   '("title" "where" "abbreviations" "unknowns" "solution" "values" "start" "time")

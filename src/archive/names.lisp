@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/types" "archive/circuit"))
+  (core-require "archive/keys" "archive/types" "archive/circuit_names"))
 
 (defun archive-lefts (equations) (mapcar #'second (cdr equations)))
 

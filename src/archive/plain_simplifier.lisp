@@ -11,6 +11,10 @@
   "E, a form whose arguments are simplified, after Maxima's simplifier."
   (simplifya e t))
 
+(defun archive-inert (operator arguments)
+  "OPERATOR at simplified ARGUMENTS, which stays as it stands."
+  (list* (list operator 'simp) arguments))
+
 (defmacro archive-with-plain-simplifier (&body body)
   "BODY, while Maxima simplifies with its default flags and judges signs by archive-plain-sign."
   `(let (($simp t) ($numer nil) ($float nil) ($keepfloat nil) ($bftorat nil) ($radexpand t)

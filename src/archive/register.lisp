@@ -153,13 +153,13 @@
      "Labels of the tree's branches"))
   :sections
   '((("branches" :rows "[label:] node -> node  type  value  [state]"
-      ("archive/rows" archive-parse-branch)))
+      ("archive/circuit_rows" archive-parse-branch)))
     (("couplings" :rows "label label  M, or label label  k = number"
-      ("archive/rows" archive-parse-coupling)))
+      ("archive/circuit_rows" archive-parse-coupling)))
     (("transformers" :rows "node -> node : node -> node  ratio n"
-      ("archive/rows" archive-parse-transformer))))
+      ("archive/circuit_rows" archive-parse-transformer))))
   :instead "graph"
-  :completed '("archive/circuit" archive-circuit-completed)
+  :completed '("archive/circuit_names" archive-circuit-completed)
   :gives '("Lagrangian" ("state_equations" "StateEquations")))
 
 (core-kind "equations" "equations of motion of the first order"

@@ -27,13 +27,6 @@ system."
           ((member key keys :test #'string=) t)
           (whole (not (member key *archive-analysis-keys* :test #'string=))))))
 
-(defun archive-digested-text (value)
-  "VALUE on one line as Maxima 5.46 writes it, whichever version runs: a digest is the same in all.
-(In later ones a minus binds closer than a product, and they write -(a*b).)"
-  (let ((bound (get 'mminus 'rbp)))
-    (unwind-protect (progn (setf (get 'mminus 'rbp) 100) (core-words (list value)))
-      (setf (get 'mminus 'rbp) bound))))
-
 (defun archive-counted-lines (archive keys)
   "The entries of the description that count, in the order of the file."
   (loop for group in (archive-groups archive)
@@ -42,8 +35,8 @@ system."
                      for key = (archive-statement-key statement)
                      when (archive-counts-p section key (archive-kind archive) keys)
                        collect (format nil "[~a] ~@[~a = ~]~a" section key
-                                       (archive-digested-text
-                                        (archive-statement-value statement))))))
+                                       (core-words
+                                        (list (archive-statement-value statement)))))))
 
 (defun archive-from-digest (archive keys extras)
   "The digest of what a result depends on: KEYS of the description, and EXTRAS, arguments and

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/parser" "archive/rows" "archive/simplify" "archive/tokens"))
+  (core-require "archive/parser" "archive/circuit_rows" "archive/simplify" "archive/tokens"))
 
 (defstruct (archive-sheet (:conc-name sheet-))
   "The TEXT of FILE, its line end, and its sections in their order."

@@ -241,7 +241,11 @@ of another is kept for those that take it."
   (let ((inputs (archive-inputs call rule)))
     (core-progress "computing ~a" name)
     (archive-assuming call name
-                      (lambda () (archive-derive rule inputs (archive-said call rule))))))
+                      (lambda ()
+                        (mapc #'core-judge-divisors inputs)
+                        (let ((derived (archive-derive rule inputs (archive-said call rule))))
+                          (core-judge-divisors (archive-derived-value derived))
+                          derived)))))
 
 (defun archive-assuming (call name function)
   "Calls FUNCTION, which derives NAME; of a public step what its kind of archive assumes holds, the

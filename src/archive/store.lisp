@@ -11,8 +11,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/bytes" "archive/digest" "archive/disk" "archive/groups" "archive/rows"
-                "archive/sections" "archive/types"))
+  (core-require "archive/bytes" "archive/digest" "archive/disk" "archive/groups"
+                "archive/circuit_rows" "archive/sections" "archive/types"))
 
 (defparameter *archive-write-tries* 20
   "How often a write begins anew when another process wrote in between.")

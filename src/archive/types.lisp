@@ -161,11 +161,11 @@ sixty letters."
 
 (defun archive-one-of (value words)
   "VALUE, a symbol spelled as one of WORDS; the nearest word is named otherwise."
-  (let* ((word (if (and (symbolp value) value) (core-spelling value) ""))
-         (near (core-nearest word words)))
-    (cond ((member word words :test #'string=) value)
-          (near (archive-unfit "did you mean ~a?" near))
-          (t (archive-unfit)))))
+  (let ((word (if (and (symbolp value) value) (core-spelling value) "")))
+    (if (member word words :test #'string=)
+        value
+        (let ((near (core-nearest word words)))
+          (if near (archive-unfit "did you mean ~a?" near) (archive-unfit))))))
 
 (defun archive-as-kind (value) (archive-one-of value (core-kind-names)))
 

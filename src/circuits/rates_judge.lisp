@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/elements" "circuits/graph" "circuits/laws" "circuits/rates"
+  (core-require "circuits/elements" "circuits/graph" "circuits/element_laws" "circuits/rates_by_branches"
                 "circuits/tree" "forms/agreement" "forms/fixed" "forms/judge"
                 "forms/program_judge" "forms/value"))
 
@@ -29,7 +29,7 @@
 
 (defun circuits-own-branches (run)
   "Numbers of the branches with states of their own, in the order of the states."
-  (append (circuits-numbers run '$inductors) (circuits-numbers run '$capacitors)))
+  (append (circuits-numbers run inductors) (circuits-numbers run capacitors)))
 
 (defun circuits-state-name (run number) (circuits-branch-state (circuits-run-branch run number)))
 
@@ -101,11 +101,11 @@
                                  (circuits-induced-voltage trial branch)))
                (|$c| (circuits-put trial #'circuits-trial-currents k
                                  (circuits-charging-current trial branch)))))
-    (dolist (k (circuits-numbers run '$current_sources))
+    (dolist (k (circuits-numbers run current_sources))
       (circuits-put trial #'circuits-trial-voltages k
                     (circuits-sum-along trial (circuits-loop-row run k)
                                         (circuits-trial-voltages trial))))
-    (dolist (k (circuits-numbers run '$voltage_sources))
+    (dolist (k (circuits-numbers run voltage_sources))
       (circuits-put trial #'circuits-trial-currents k
                     (- (circuits-sum-along trial (circuits-cut-row run k)
                                            (circuits-trial-currents trial)))))))
@@ -133,7 +133,7 @@
   (let* ((number (circuits-branch-number branch)) (run (circuits-trial-run trial))
          (voltage (forms-fixed-times (circuits-number trial (circuits-branch-value branch))
                                      (circuits-rate-of trial number))))
-    (dolist (coupling (circuits-numbers run '$couplings))
+    (dolist (coupling (circuits-numbers run couplings))
       (let ((pair (list (circuits-coupling-one coupling) (circuits-coupling-other coupling))))
         (when (member number pair)
           (incf voltage (forms-fixed-times
@@ -175,15 +175,15 @@
   (circuits-number trial
                    (mfuncall '$circuits_law (circuits-branch-value branch)
                              (div argument (ash 1 forms-digits))
-                             ($core_get (circuits-run-network (circuits-trial-run trial))
-                                        '$laws))))
+                             (circuits-network-laws
+                              (circuits-run-network (circuits-trial-run trial))))))
 
 (defun circuits-kirchhoff-pairs (trial)
   (let* ((network (circuits-run-network (circuits-trial-run trial)))
-         (ends (mfuncall '$map '$circuits_ends ($core_get network '$branches))))
+         (ends (mfuncall '$map '$circuits_ends (circuits-network-branches network))))
     (flet ((zeros (numbers) (mapcar (lambda (x) (cons x 0)) (cdr numbers)))
            (list-of (vector) (cons '(mlist simp) (coerce vector 'list))))
-      (if (cdr ($core_get network '$transformers))
+      (if (cdr (circuits-network-transformers network))
           (circuits-winding-pairs trial network)
           (append (zeros ($circuits_current_sums
                           ends (list-of (circuits-trial-currents trial))))
@@ -194,8 +194,8 @@
 ;;; the laws hold?
 
 (defun circuits-winding-pairs (trial network)
-  (let* ((branches ($core_get network '$branches))
-         (transformers ($core_get network '$transformers))
+  (let* ((branches (circuits-network-branches network))
+         (transformers (circuits-network-transformers network))
          (rows (circuits-number-rows
                 trial (mfuncall '$circuits_node_rows branches transformers)
                 (+ (length (cdr branches)) (length (cdr transformers)))))

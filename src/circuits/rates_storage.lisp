@@ -6,7 +6,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_from_expressions"
-                "algebra/program_nodes" "circuits/elements" "circuits/rates"
+                "algebra/program_nodes" "circuits/elements" "circuits/rates_by_branches"
                 "circuits/rates_judge" "forms/rates"))
 
 ;;; What stores energy: branches of one sort, independent ones first. A shift is (row . rate): how
@@ -40,7 +40,7 @@ known at the others, SIGN is that of the sum."
   (append
    (loop for k in numbers
          collect (list k k (circuits-value run (circuits-run-branch run k))))
-   (loop for coupling in (circuits-numbers run '$couplings)
+   (loop for coupling in (circuits-numbers run couplings)
          for one = (circuits-coupling-one coupling)
          for other = (circuits-coupling-other coupling)
          for mutual = (circuits-element run (circuits-coupling-mutual coupling))
@@ -67,11 +67,12 @@ known at the others, SIGN is that of the sum."
 
 ;;; Both halves.
 
-(defun circuits-half (run keys row-of quantity sign right)
-  "Two lists, rows of the matrix and right sides, of the branches under KEYS, (independent
+(defun circuits-half (run readers row-of quantity sign right)
+  "Two lists, rows of the matrix and right sides, of the branches that READERS give, (independent
 dependent); RIGHT gives what Kirchhoff's laws leave for a branch."
   (destructuring-bind (independent dependent)
-      (mapcar (lambda (key) (circuits-numbers run key)) keys)
+      (mapcar (lambda (reader) (cdr (funcall reader (circuits-run-network run))))
+              readers)
     (multiple-value-bind (rows forced)
         (circuits-reduced-storage
          (circuits-storage-entries run (append independent dependent))
@@ -92,11 +93,13 @@ dependent); RIGHT gives what Kirchhoff's laws leave for a branch."
     (circuits-set-states run)
     (circuits-set-resistors run)
     (multiple-value-bind (i-rows i-right)
-        (circuits-half run '($inductors $dependent_inductors) #'circuits-cut-row
+        (circuits-half run '(circuits-network-inductors circuits-network-dependent_inductors)
+                       #'circuits-cut-row
                        (lambda (k) (circuits-current run k)) -1
                        #'circuits-along-loop)
       (multiple-value-bind (u-rows u-right)
-          (circuits-half run '($capacitors $dependent_capacitors) #'circuits-loop-row
+          (circuits-half run '(circuits-network-capacitors circuits-network-dependent_capacitors)
+                         #'circuits-loop-row
                          (lambda (k) (circuits-voltage run k)) 1
                          #'circuits-through-cut)
         (let ((mass (append i-rows (circuits-shifted-rows u-rows (length i-rows))))
@@ -105,7 +108,8 @@ dependent); RIGHT gives what Kirchhoff's laws leave for a branch."
           (circuits-rates-record network mass right))))))
 
 (defun circuits-rates-record (network mass right)
-  (let ((states (append (cdr ($core_get network '$currents)) (cdr ($core_get network '$voltages)))))
+  (let ((states (append (cdr (circuits-network-currents network))
+                        (cdr (circuits-network-voltages network)))))
     (make-forms-rates
      :program *algebra-program* :states states :mass mass
      :outputs (list (cons '$rates (cons :list right)))

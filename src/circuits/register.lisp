@@ -8,8 +8,12 @@
 ;;; The middle: the circuit as described, its branches checked; the network, sorted by a tree, with
 ;;; its matrices. A circuit whose network is refused is still checked.
 
-(core-middle "circuit" '("circuit") "circuits/circuit" "circuits_circuit" "description")
-(core-middle "network" '("circuit") "circuits/network" "circuits_network" "circuit")
+(core-middle "circuit" '("circuit") "circuits/circuit" "circuits_read_circuit" "description")
+(core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
+
+(core-argument :formula "MixedPotential")
+(core-argument :branches "inductances" "capacitances")
+
 (core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 

@@ -73,10 +73,9 @@
   (/ (sb-kernel:dynamic-usage) (float (sb-ext:dynamic-space-size))))
 
 (defun core-memory-text (share)
-  (format nil "stopped~@[ while ~a~]: ~d % of Maxima's memory of ~d MB is in use; ~a, or start ~
-               Maxima with a larger heap"
+  (format nil "stopped~@[ while ~a~]: ~d % of Maxima's memory of ~d MB is in use~a"
           *core-doing* (round (* 100 share)) (round (sb-ext:dynamic-space-size) 1048576)
-          (core-what-is-cheaper)))
+          (core-advised (core-number-advice) *core-cheaper* "start Maxima with a larger heap")))
 
 (defun core-look-at-memory ()
   "Called after each collection."

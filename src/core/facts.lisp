@@ -15,6 +15,13 @@
   "States what finds (name . sign), .. from a list of relations, or :contradiction."
   (setq *core-fact-judge* (cons part function)))
 
+(defvar *core-divisor-judge* nil
+  "Part and function that refuse a divisor that is assumed to be 0.")
+
+(defun core-divisor-judge (part function)
+  "States what looks at divisors where an equality is assumed."
+  (setq *core-divisor-judge* (cons part function)))
+
 (defun core-facts ()
   "The relations that hold here."
   (if (eq *core-facts* :session) (core-session-facts) *core-facts*))
@@ -24,6 +31,18 @@
   (when facts
     (core-require (car *core-fact-judge*))
     (funcall (cdr *core-fact-judge*) facts)))
+
+(defun core-zeros ()
+  "The expressions that are assumed to be 0."
+  (loop for fact in (core-facts)
+        append (multiple-value-bind (e sign) (core-fact-difference fact)
+                 (and (eq sign '$zero) (list e)))))
+
+(defun core-judge-divisors (e)
+  "An error where in E, which a derivation takes or gives, a divisor is assumed to be 0."
+  (when (core-zeros)
+    (core-require (car *core-divisor-judge*))
+    (funcall (cdr *core-divisor-judge*) e)))
 
 (defun core-relation-p (fact)
   "Whether FACT, as Maxima's data base gives it, compares two expressions."

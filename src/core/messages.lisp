@@ -21,11 +21,17 @@
 (defvar *core-warnings-now* '() "Warnings of what is being derived, given already or not.")
 
 (defun core-words (items)
-  "ITEMS, strings and Maxima expressions, as one string on one line."
-  (let (($display2d nil) ($stringdisp nil) ($lispdisp nil) ($linel 100000))
-    (apply #'concatenate 'string
-           (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string)))
-                   items))))
+  "ITEMS, strings and Maxima expressions, as one string on one line, the same in all versions of
+Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be written -(4*x).)"
+  (let (($display2d nil) ($stringdisp nil) ($lispdisp nil) ($linel 100000)
+        (bound (get 'mminus 'rbp)))
+    (unwind-protect
+         (progn
+           (setf (get 'mminus 'rbp) 100)
+           (apply #'concatenate 'string
+                  (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string)))
+                          items)))
+      (setf (get 'mminus 'rbp) bound))))
 
 (defun core-cut (text)
   "TEXT, cut after sixty letters."
@@ -183,6 +189,28 @@ keeps its value."
   (subseq (core-words (list name)) 0 1))
 
 (defun $core_textp (e) (stringp e))
+
+;;; What else to do, at the end of a refusal
+
+(defvar *core-has-parameters* t
+  "Whether the system of this call has parameters, or a function that tells it.")
+
+(defun core-number-advice ()
+  "The advice to give numbers to some parameters, nil where there are none."
+  (and (if (functionp *core-has-parameters*)
+           (funcall *core-has-parameters*)
+           *core-has-parameters*)
+       "give numbers to some parameters"))
+
+(defun $core_number_advice () (core-number-advice))
+
+(defun core-advised (&rest phrases)
+  "\"; do this, do that, or do the other\": those of PHRASES that are not nil."
+  (let ((advice (remove nil phrases)))
+    (format nil "~[~:;; ~]~{~#[~;~a~;~a, or ~a~:;~@{~a~#[~;, or ~:;, ~]~}~]~}" (length advice)
+            advice)))
+
+(defun $core_advised (&rest phrases) (apply #'core-advised phrases))
 
 ;;; Names that a result brings of itself must not be those of the system
 

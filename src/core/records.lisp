@@ -2,7 +2,9 @@
 ;;; Records with named fields in both languages. (core-record forms-actions (rayleigh 0) forces)
 ;;; makes the structure forms-actions with its accessors in Lisp, and for Maxima the function
 ;;; forms_actions(rayleigh, forces), which makes one, and forms_actions_rayleigh(record), .., which
-;;; read it. Records stay inside: what a person gets are lists of equations.
+;;; read it. Records stay inside: what a person gets are lists of equations. A record called
+;;; (forms-special forms-actions) is one of the latter, to which fields are added: it is made from
+;;; one, forms_special(actions, ..), and read by the names of both.
 
 (in-package :maxima)
 
@@ -16,13 +18,19 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defun core-record-reader (name field) (intern (format nil "~a-~a" name field) :maxima))
 
-  (defun core-record-maker (name required optional)
+  (defun core-record-fields (name) (get name 'core-record-fields))
+
+  (defun core-record-key (field) (intern (symbol-name field) :keyword)))
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defun core-record-maker (name parent required optional)
     (let ((fields (append required (mapcar #'car optional))))
       `(defun ,(core-maxima-name name)
-           (,@required ,@(when optional `(&optional ,@optional)))
+           (,@(when parent (list parent)) ,@required ,@(when optional `(&optional ,@optional)))
          (,(intern (format nil "MAKE-~a" name) :maxima)
-          ,@(loop for field in fields
-                  append (list (intern (symbol-name field) :keyword) field))))))
+          ,@(loop for field in (core-record-fields parent)
+                  append `(,(core-record-key field) (,(core-record-reader parent field) ,parent)))
+          ,@(loop for field in fields append (list (core-record-key field) field))))))
 
   (defun core-record-changer (name fields)
     `(defun ,(core-maxima-name name "with") (record &rest changes)
@@ -34,16 +42,22 @@
                                (setf (,(core-record-reader name field) copy)
                                      (caddr change))))))))))
 
-(defmacro core-record (name documentation &rest fields)
-  "A structure NAME; each of FIELDS is a symbol or, after those, (symbol default)."
-  (let* ((required (remove-if #'consp fields))
-         (optional (remove-if-not #'consp fields))
-         (all (append required (mapcar #'car optional))))
-    `(progn
-       (defstruct ,name ,documentation ,@all)
-       ,(core-record-maker name required optional)
-       ,(core-record-changer name all)
-       ,@(loop for field in all
-               collect `(defun ,(core-maxima-name name field) (record)
-                          (,(core-record-reader name field) record)))
-       ',name)))
+(defmacro core-record (name-and-parent documentation &rest fields)
+  "A structure NAME, or (NAME PARENT); each of FIELDS is a symbol or, after those, (symbol
+default)."
+  (destructuring-bind (name &optional parent)
+      (if (consp name-and-parent) name-and-parent (list name-and-parent))
+    (let* ((required (remove-if #'consp fields))
+           (optional (remove-if-not #'consp fields))
+           (own (append required (mapcar #'car optional)))
+           (all (append (core-record-fields parent) own)))
+      `(progn
+         (eval-when (:compile-toplevel :load-toplevel :execute)
+           (setf (get ',name 'core-record-fields) ',all))
+         (defstruct ,(if parent `(,name (:include ,parent)) name) ,documentation ,@own)
+         ,(core-record-maker name parent required optional)
+         ,(core-record-changer name all)
+         ,@(loop for field in all
+                 collect `(defun ,(core-maxima-name name field) (record)
+                            (,(core-record-reader name field) record)))
+         ',name))))

@@ -37,6 +37,17 @@
 words in the list TYPE. Values of other options are looked at where they are used."
   (dolist (name names) (setf (gethash name *core-options*) type)))
 
+;;; Arguments
+
+(defvar *core-arguments* (make-hash-table :test #'equal)
+  "Name of an argument, or (name kind) -> its type.")
+
+(defun core-argument (type &rest names)
+  "States what the arguments NAMES of calls on expressions are, and options of these names: one of
+the types in src/archive/argument_types.lisp. (name kind) is the argument in calls of that kind. A
+key of [system] for which nothing is stated has its type there."
+  (dolist (name names) (setf (gethash name *core-arguments*) type)))
+
 ;;; Rules
 
 (defun core-same-case-p (rule other)

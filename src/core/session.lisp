@@ -158,9 +158,15 @@ removes, rules before their simplifier, the derivative of abs."
       (copy-tree (core-born-properties symbol))))
 
 (defun core-changed-p (symbol)
-  "Whether SYMBOL of Maxima has other properties than at birth."
-  (not (equal (core-own-properties (symbol-plist symbol))
-              (core-own-properties (core-born-properties symbol)))))
+  "Whether SYMBOL of Maxima has other properties than at birth, lasting ones apart. All its symbols
+are asked at each call: what is as it was is passed over in step, without a copy."
+  (loop with now = (symbol-plist symbol) and born = (core-born-properties symbol)
+        while (or now born)
+        do (cond ((and now born (eq (car now) (car born)) (equal (cadr now) (cadr born)))
+                  (setq now (cddr now) born (cddr born)))
+                 ((and now (core-lasting-p (car now))) (setq now (cddr now)))
+                 ((and born (core-lasting-p (car born))) (setq born (cddr born)))
+                 (t (return t)))))
 
 (defun core-named-symbols (item)
   "The symbols whose properties an entry ITEM of an information list stands for. (wxMaxima puts

@@ -72,18 +72,15 @@ to the next line of progress begin anew."
 
 ;;; The sentence of a stop
 
-(defun core-what-is-cheaper ()
-  (format nil "give numbers to some parameters~@[, or ~a~]" *core-cheaper*))
-
 (defun core-rounded (seconds)
   "SECONDS as a person says them."
   (if (< seconds 10) (format nil "~,2f" seconds) (format nil "~d" (round seconds))))
 
 (defun core-late-text (deadline)
-  (format nil "stopped after ~a s, the limit of time~@[, while ~a~]; ~a, or more time by ~
-               limit = seconds (0: none)"
+  (format nil "stopped after ~a s, the limit of time~@[, while ~a~]~a"
           (core-rounded (core-seconds-since (core-deadline-began deadline))) *core-doing*
-          (core-what-is-cheaper)))
+          (core-advised (core-number-advice) *core-cheaper*
+                        "give more time by limit = seconds (0: none)")))
 
 (defun core-stop (deadline text &optional (why 'core-late))
   "Ends what DEADLINE is for; WHY is core-late, or core-full where it is for memory."

@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; What acts on a system beside Lagrange's function, how its equations are wanted, what they are
-;;; derived from, what is left of it by Routh's reduction, and what Dirac's scheme starts from.
+;;; derived from, and what is left of it by Routh's reduction.
 ;;; `rayleigh' is R with the force -dR/dq', `forces' a list of Q_i or [] for none, `constraints'
 ;;; equations f(q,t) = 0, `nonholonomic' equations linear in the velocities.
 ;;; It begins with the values that names have by what is assumed.
@@ -65,12 +65,6 @@ coordinate."
   "What Routh's reduction gives: the coordinates, the cyclic ones' momenta, the function R of the
 others, the cyclic velocities as equations."
   cyclic remaining momenta function velocities)
-
-(core-record forms-degenerate
-  "A degenerate Lagrange's function in canonical variables, see dirac.mac: H, the rank of
-d2L/dq'dq', the primary constraints and their multipliers u1, ..; all q and p are `variables', in
-the order in which constraints are solved for them."
-  coordinates momenta hamiltonian rank primary multipliers variables)
 
 (defun $forms_system_expressions (system)
   "[L, R, [Q_1, ..]]."

@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_derivative" "algebra/program_from_expressions"
-                "algebra/program_nodes" "forms/actions" "forms/equations_as_program"
+  (core-require "algebra/program_from_expressions"
+                "algebra/program_nodes" "forms/equations_as_program"
                 "forms/program_judge"))
 
 (defstruct forms-dynamics

@@ -58,12 +58,20 @@
 (defun forms-program-factors (rows fault)
   "The array with L below the diagonal and D on it, ROWS = L D L^T; FAULT: what a zero in D means."
   (let* ((n (length rows)) (a (make-array (list n n) :initial-contents rows)))
-    (dotimes (k n a)
+    (dotimes (k n (forms-judge-pivots a n))
       (when (eql (aref a k k) 0) (core-error "~a" fault))
       (loop for i from (1+ k) below n
             do (if (eql (aref a k i) 0)
                    (setf (aref a i k) 0)
                    (forms-take-row a i k n))))))
+
+(defun forms-judge-pivots (a n)
+  "A, where none of its N pivots is assumed to be 0."
+  (when (core-zeros)
+    (let ((inverses (loop for k below n collect (algebra-program-divide 1 (aref a k k)))))
+      (core-judge-divisors
+       (algebra-program-record nil (list (list* '$pivots :list inverses))))))
+  a)
 
 (defun forms-take-row (a i k n)
   "Takes row K out of row I from the diagonal on; the factor of L goes to A[i,k]."

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/branches"))
+  (core-require "forms/piecewise"))
 
 (defun forms-derivative-p (e)
   "True for 'diff(q,t,n) where q is a name, possibly with a subscript."

@@ -1,13 +1,12 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Expressions made fit for numbers: every function that is left open becomes a polynomial of its
 ;;; own, the same wherever it occurs, and its derivatives that stand as nouns are carried out. What
-;;; Maxima cannot carry out, and every integral, stays: value.lisp gives it a value. Random numbers
-;;; are decided by the spelling of what they stand for, so that a failure is found again.
+;;; Maxima cannot carry out, and every integral, stays: value.lisp gives it a value.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/exchange"))
+  (core-require "algebra/random_numbers" "forms/exchange"))
 
 (defun forms-open-function-p (operator)
   "True for a function of the user: nothing in Maxima says what it is."
@@ -17,16 +16,9 @@
        (not (or (get operator 'operators) (get operator 'grad)
                 (mget operator 'mexpr) (fboundp operator)))))
 
-(defun forms-random-number (spelling)
-  "A rational number between 1/4 and 3/4 that SPELLING decides."
-  (let ((state 20011))
-    (loop for character across spelling
-          do (setq state (mod (+ (* 7141 state) 54773 (* 331 (char-code character))) 259200)))
-    (+ 1/4 (/ state 524288))))
-
 (defun forms-open-coefficient (name k)
   "The K-th coefficient of the polynomial for the function NAME."
-  (forms-random-number (format nil "~a~d" name k)))
+  (algebra-random-number (format nil "~a~d" name k)))
 
 (defun forms-open-polynomial (name arguments)
   "sum c_k x_k + sum c_-k x_k x_(k+1), the last neighbour of x_n being x_1."

@@ -8,7 +8,13 @@
 
 (core-option :truth "simplify" "expanded" "eliminate" "solved")
 
+(core-argument :formula "Lagrangian" "lagrangian" "hamiltonian")
+(core-argument :shape "expression" "f" "g")
+(core-argument :variables "coordinates")
+(core-argument :motion "motion")
+
 (core-fact-judge "algebra/known_signs" 'algebra-name-signs)
+(core-divisor-judge "algebra/divisors" 'algebra-require-divisors)
 
 ;;; What acts beside L, and how equations are wanted
 

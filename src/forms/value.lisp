@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/exchange" "forms/fixed" "forms/open_functions"))
+  (core-require "algebra/random_numbers" "forms/exchange" "forms/fixed" "forms/open_functions"))
 
 (defstruct forms-point
   (names (make-hash-table :test #'eq)) ; name -> value
@@ -136,9 +136,7 @@
       (forms-function-value (list '(mplus) e) '() point)
       (forms-variable-value e point)))
 
-(defun forms-random-value (e)
-  (forms-fixed
-   (forms-random-number (if (symbolp e) (symbol-name e) (coerce (mstring e) 'string)))))
+(defun forms-random-value (e) (forms-fixed (algebra-random-number e)))
 
 (defun forms-function-value (e arguments point)
   "The function of E at ARGUMENTS; a constant is E itself."

@@ -61,6 +61,29 @@ O_1 and the index of the link of body 1."
 velocity and to the velocity of O_k."
   index turning moving)
 
+;;; A carrier, the body that carries all others (euler_poisson_carrier.mac)
+
+(core-record linmodel-carrier
+  "In the scene that is GIVEN: the links of the support and the rings beneath the carrier; those
+that are KEPT, the carrier's and what it carries; the coordinates that are HIDDEN, since the
+velocities of the carrier take their place; whether its origin is FREE; the SCENE in these."
+  given support rings kept hidden free scene)
+
+(core-record linmodel-support
+  "The TURN A with x_0 = A*x_S, the SPIN Omega in axes S, the ORIGIN O of the carrier in axes 0,
+false where the carrier is free. Axes S are axes 0 where the support does not turn."
+  turn spin origin)
+
+(core-record linmodel-felt-field
+  "The field in axes S as the carrier feels it: gravity, the pull - O'', the centre, the vector
+O_1 O. What has no moment about O is [0, 0, 0]."
+  gravity pull (centre nil) (away *linmodel-zero-vector*))
+
+(core-record linmodel-motion-names
+  "Variables of the equations: omega, the directions, a list of vectors, the relative coordinates
+and their velocities."
+  omega directions relative speeds)
+
 (defun $linmodel_given (scene key)
   "The KEY of [system] of the description that SCENE was read from."
   ($core_get (linmodel-scene-given scene) key))

@@ -1,18 +1,21 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The method that chooses: explicit steps until stability binds them and no longer accuracy (the
 ;;; test of stiffness of E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, section
-;;; IV.2), then implicit ones until the motion is no longer stiff, and so on. Where there is a mass
-;;; matrix all steps are implicit.
+;;; IV.2), then implicit ones until the motion is no longer stiff, and so on. Where there is a
+;;; mass matrix all steps are implicit, where there is no Jacobian explicit.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/dormand_prince" "numerics/radau"))
+  (core-require "numerics/decimals" "numerics/dormand_prince" "numerics/problem"
+                "numerics/radau"))
 
 (defun numerics-automatic-controls (problem controls implicit step)
   "A copy of CONTROLS, with the same counts, for the next method and its first STEP."
   (let ((copy (copy-numerics-controls controls)))
-    (setf (numerics-controls-looks-for copy) (cond ((numerics-problem-mass problem) nil)
+    (setf (numerics-controls-looks-for copy) (cond ((or (numerics-problem-mass problem)
+                                                       (null (numerics-problem-jacobian problem)))
+                                                   nil)
                                                    (implicit :end-of-stiffness)
                                                    (t :stiffness))
           (numerics-controls-first-step copy) step)
@@ -20,11 +23,12 @@
 
 (defun numerics-changes-text (times)
   "What is said of changes between the methods at TIMES."
-  (format nil "explicit steps~{, ~a ones from t = ~,4g~}~[~:;; ~:*~d changes in all~]"
+  (format nil "explicit steps~{, ~a ones from t = ~a~}~[~:;; ~:*~d changes in all~]"
           (loop for time in times
                 for implicit = t then (not implicit)
                 repeat 4
-                append (list (if implicit "implicit" "explicit") time))
+                append (list (if implicit "implicit" "explicit")
+                             (numerics-short-number time)))
           (if (> (length times) 4) (length times) 0)))
 
 (defun numerics-automatic (problem controls moment state observer)

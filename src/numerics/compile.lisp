@@ -1,17 +1,21 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; A plan as machine code by the compiler of this Lisp. The nodes go in their order into parts,
 ;;; each a function (lambda (x w out) ..) of its own, since compilers take far more than linear
-;;; time for one long function. A value that is used once stands where it is used, others are bound by
-;;; `let'; the work vector w holds what another part needs, the arguments and values of elementary
-;;; functions, and the time at 0. See numerics-compiled first.
+;;; time for one long function. A value that is used once stands where it is used, others are bound
+;;; by `let'; the work vector w holds what another part needs, the arguments and values of
+;;; elementary functions, and the time at 0. Rows of a product become code, too, where they are few:
+;;; long ones run faster as a product, and are made in no time. See numerics-compiled first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/native"
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes"
+                "numerics/linear_rows" "numerics/native"
                 "numerics/plan" "numerics/problem" "numerics/routine_entry"))
 
-(defparameter *numerics-part-length* 150 "Statements in one function.")
+(defparameter *numerics-part-length* 250
+  "Operations in one function: more are spilled, fewer are stored for other functions.")
+(defparameter *numerics-most-row-terms* 2000 "More terms of rows stay a product.")
 
 (defstruct numerics-code
   plan
@@ -23,10 +27,10 @@
   (length 1)                  ; of the work vector
   (presets '()))              ; ((place . double) ..): constants in the work vector
 
-;;; Statements: a node, (:keep . input), which stores an input, or (:copy place . node), which
-;;; gives out what is not computed in the last stage.
+;;; Statements: a node, (:keep . input), which stores an input, (:copy place . node), which gives
+;;; out what is not computed in the last stage, or (:row place . form).
 
-(defun numerics-stages (plan)
+(defun numerics-stages (plan rows)
   "The statements of both stages."
   (let* ((early (numerics-plan-nodes plan)) (late (numerics-plan-late plan))
          (seeded (numerics-plan-seeded plan)) (last (if seeded late early))
@@ -36,7 +40,9 @@
       (flet ((keep (inputs) (loop for input in inputs collect (cons :keep input))))
         (if seeded
             (list (append (keep states) early) (append (keep seeds) late copies))
-            (list (append (keep states) early copies) '()))))))
+            (list (append (keep states) early copies
+                          (loop for row in rows collect (cons :row row)))
+                  '()))))))
 
 (defun numerics-kept-inputs (plan copies)
   "The states, and the seeds, that are needed in the work vector: arguments of functions, states
@@ -58,12 +64,19 @@ that the second stage needs, those of its COPIES too."
 (defun numerics-operands (statement)
   "The nodes that STATEMENT uses."
   (cond ((algebra-node-p statement) (algebra-node-parts statement))
-        ((eq (first statement) :copy) (list (cddr statement)))))
+        ((eq (first statement) :copy) (list (cddr statement)))
+        ((eq (first statement) :row) (mapcar #'car (cdddr statement)))))
+
+(defun numerics-weight (statement)
+  (if (algebra-node-p statement) 1 (max 1 (length (numerics-operands statement)))))
 
 (defun numerics-cut (statements)
+  "STATEMENTS as a list of parts."
   (loop while statements
-        collect (loop repeat *numerics-part-length*
-                      while statements collect (pop statements))))
+        collect (loop with length = 0
+                      while (and statements (< length *numerics-part-length*))
+                      do (incf length (numerics-weight (first statements)))
+                      collect (pop statements))))
 
 ;;; Places in the work vector.
 
@@ -201,9 +214,25 @@ they are kept."
                (store 'w (numerics-slot code (cdr statement))
                       `(numerics-element x ,(cdr (numerics-input-place (numerics-code-plan code)
                                                                        (cdr statement))))))
+              ((eq (first statement) :copy)
+               (store 'out (second statement) (numerics-text code (cddr statement) written)))
               (t (store 'out (second statement)
-                        (numerics-text code (cddr statement) written))))))
+                        (numerics-row-text code (cddr statement) written))))))
     (numerics-part-function steps)))
+
+(defun numerics-row-text (code form written)
+  "The sum FORM in the order of a product."
+  (let ((sum (and (/= (first form) 0) (numerics-constant-double (first form)))))
+    (loop for (node . coefficient) in (numerics-terms-in-order
+                                       (rest form)
+                                       (lambda (node)
+                                         (eq (car (numerics-input-place (numerics-code-plan code)
+                                                                        node))
+                                             :state)))
+          for term = `(* ,(numerics-constant-text code (numerics-constant-double coefficient))
+                         ,(numerics-text code node written))
+          do (setq sum (if sum `(+ ,sum ,term) term)))
+    (or sum 0d0)))
 
 (defun numerics-part-function (steps)
   (let ((body '(nil)))
@@ -235,12 +264,29 @@ they are kept."
 
 ;;; The whole.
 
-(defun numerics-new-code (plan)
+(defun numerics-few-rows-p (plan)
+  (<= (loop for (nil nil . terms) in (numerics-plan-rows plan) sum (length terms))
+      *numerics-most-row-terms*))
+
+(defun numerics-rows-apart (plan)
+  "A plan without rows, and the rows, where they are few."
+  (let ((copy (copy-numerics-plan plan)))
+    (cond ((numerics-few-rows-p plan)
+           (setf (numerics-plan-rows copy) '())
+           (values copy (numerics-plan-rows plan)))
+          (t (values plan '())))))
+
+(defun numerics-compilable-p (plan)
+  "Whether there is more than a product."
+  (or (plusp (numerics-plan-count plan))
+      (and (numerics-plan-rows plan) (numerics-few-rows-p plan))))
+
+(defun numerics-new-code (plan rows)
   "The code and two lists of parts."
   (let ((code (make-numerics-code :plan plan)) (last (if (numerics-plan-seeded plan)
                                                          (numerics-plan-late plan)
                                                          (numerics-plan-nodes plan))))
-    (destructuring-bind (early late) (mapcar #'numerics-cut (numerics-stages plan))
+    (destructuring-bind (early late) (mapcar #'numerics-cut (numerics-stages plan rows))
       (loop for (place . node) in (numerics-plan-outputs plan)
             when (member node last :test #'eq)
               do (push place (gethash (algebra-node-index node) (numerics-code-outputs code))))
@@ -254,8 +300,10 @@ they are kept."
 
 (defun numerics-compiled (plan)
   "Two functions: (time x out), and (seed out) for the second stage."
-  (multiple-value-bind (code early late) (numerics-new-code plan)
-    (let* ((first (numerics-compiled-parts code early))
+  (multiple-value-bind (code early late) (multiple-value-call #'numerics-new-code
+                                           (numerics-rows-apart plan))
+    (let* ((plan (numerics-code-plan code))
+           (first (numerics-compiled-parts code early))
            (second (numerics-compiled-parts code late))
            (work (numerics-zeros (numerics-code-length code))))
       (loop for (place . value) in (numerics-code-presets code) do (setf (aref work place) value))

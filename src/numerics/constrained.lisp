@@ -6,8 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "forms/rates" "numerics/native" "numerics/problem"
-                "numerics/program" "numerics/projection" "numerics/routine" "numerics/run_options"))
+  (core-require "algebra/program_record" "forms/rates" "numerics/decimals" "numerics/native"
+                "numerics/problem" "numerics/program" "numerics/back_to_constraints" "numerics/routine"))
 
 (defparameter *numerics-largest-start-residual* 1d-6
   "Off a constraint by more than this a start is refused, by less it is brought back.")

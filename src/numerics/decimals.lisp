@@ -1,6 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Coefficients as their source writes them: decimals as rational numbers, and the double-float
-;;; numbers nearest to these, to the last place in every Lisp (the coerce of some is not).
+;;; Numbers as they are written: coefficients, whose source has decimals, as rational numbers; the
+;;; double-float numbers nearest to these, to the last place in every Lisp (the coerce of some is
+;;; not); and numbers of messages.
 
 (in-package :maxima)
 
@@ -18,3 +19,13 @@
              (shift (- 53 bits))
              (shift (if (>= (abs (* x (expt 2 shift))) (expt 2 53)) (1- shift) shift)))
         (scale-float (coerce (round (* x (expt 2 shift))) 'double-float) (- shift)))))
+
+(defun numerics-short-number (x)
+  "X to six digits, as a person writes it."
+  (flet ((trimmed (text) (string-right-trim "." (string-right-trim "0" text))))
+    (if (or (= x 0d0) (<= 1d-3 (abs x) 1d6))
+        (trimmed (format nil "~,6f" x))
+        (let* ((text (string-downcase (format nil "~,5e" x)))
+               (place (position-if #'alpha-char-p text)))
+          (concatenate 'string (trimmed (subseq text 0 place)) "e"
+                       (string-left-trim "+" (subseq text (1+ place))))))))

@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Integration by the explicit method of order 8 by Dormand and Prince with steps of its own choice:
-;;; the control of steps and the test of stiffness of Hairer's code dop853.f (E. Hairer, S. P.
-;;; Norsett, G. Wanner, Solving Ordinary Differential Equations I, section II.5), in the norm of the
-;;; controls. The slope at the new state is the first of the next step. A trial that is not finite is
-;;; taken again with a shorter step. Look first at numerics-dopri.
+;;; Integration by the explicit method of order 8 by Dormand and Prince with steps of its own
+;;; choice: the control of steps and the test of stiffness of Hairer's code dop853.f (E. Hairer,
+;;; S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, section II.5), in the norm
+;;; of the controls. The slope at the new state is the first of the next step. A trial that is not
+;;; finite is taken again with a shorter step. Look first at numerics-dopri.
 
 (in-package :maxima)
 
@@ -12,7 +12,7 @@
 
 (defun numerics-dopri (problem controls moment state observer)
   "Integrates PROBLEM, x' = X(t, x), from STATE at MOMENT; an outcome."
-  (let ((run (numerics-new-dopri problem controls moment state)))
+  (let ((run (numerics-new-dopri-run problem controls moment state)))
     (numerics-dopri-show run)
     (loop for status = (numerics-dopri-begin run)
             then (or (numerics-dopri-limit run) (numerics-dopri-step-on run observer))
@@ -25,7 +25,8 @@
 
 (defun numerics-dopri-outcome (run status)
   (make-numerics-outcome :status status :moment (numerics-dopri-moment run)
-                         :state (numerics-dopri-state run) :step (numerics-dopri-step run)))
+                         :state (numerics-dopri-state run) :step (numerics-dopri-step run)
+                         :about (numerics-dopri-about run)))
 
 (defun numerics-dopri-counts (run) (numerics-controls-counts (numerics-dopri-controls run)))
 
@@ -40,17 +41,19 @@
     (if (numerics-finite-vector-p slope) nil :not-finite)))
 
 (defun numerics-dopri-begin (run)
-  (let ((controls (numerics-dopri-controls run)))
-    (or (numerics-dopri-first-slope run)
-        (let ((given (numerics-controls-first-step controls))
-              (left (numerics-time-left controls (numerics-dopri-moment run))))
-          (setf (numerics-dopri-step run)
-                (if given
-                    (* (signum left) (abs given))
-                    (numerics-first-step (numerics-dopri-problem run) controls
-                                         (numerics-dopri-moment run) (numerics-dopri-state run)
-                                         (svref (numerics-dopri-slopes run) 1) 8)))
-          nil))))
+  "The first slope and step of RUN; the status in which it ends at its start, or nil."
+  (let* ((controls (numerics-dopri-controls run)) (moment (numerics-dopri-moment run))
+         (left (numerics-time-left controls moment))
+         (given (numerics-controls-first-step controls)))
+    (cond ((numerics-dopri-first-slope run))
+          ((zerop left) :end)
+          (t (setf (numerics-dopri-step run)
+                   (if given
+                       (* (signum left) (min (abs given) (numerics-dopri-largest-step run)))
+                       (numerics-first-step (numerics-dopri-problem run) controls moment
+                                            (numerics-dopri-state run)
+                                            (svref (numerics-dopri-slopes run) 1) 8)))
+             nil))))
 
 (defun numerics-dopri-limit (run)
   "The status in which RUN ends before its next step, or nil; that step is made to meet the end."
@@ -63,6 +66,9 @@
            (if (numerics-dopri-finite-p run) :smallest-step :not-finite))
           ((and most
                 (>= (+ (numerics-counts-steps counts) (numerics-counts-rejected counts)) most))
+           :most-steps)
+          ((setf (numerics-dopri-about run)
+                 (numerics-hopeless (numerics-dopri-pace run) controls moment))
            :most-steps)
           (t (setf (numerics-dopri-full-step run) step
                    (numerics-dopri-last-p run) (<= (abs left) (* 1.01d0 (abs step))))
@@ -120,15 +126,14 @@
     nil))
 
 (defun numerics-dopri-choose-step (run)
-  "The next step of RUN: not longer right after a trial that failed, and as long as it was before the
-end made it shorter."
+  "The next step of RUN: not longer right after a trial that failed, and as long as it was before
+the end made it shorter."
   (let* ((step (numerics-dopri-step run)) (full (abs (numerics-dopri-full-step run)))
          (factor (numerics-dopri-factor (numerics-dopri-error run)))
-         (next (* (abs step) (if (numerics-dopri-rejected-p run) (min 1d0 factor) factor)))
-         (largest (numerics-controls-largest-step (numerics-dopri-controls run))))
+         (next (* (abs step) (if (numerics-dopri-rejected-p run) (min 1d0 factor) factor))))
     (declare (double-float step full factor next))
-    (when (< (abs step) full) (setq next (max next full)))
-    (when largest (setq next (min next (the double-float largest))))
+    (setq next (min (if (< (abs step) full) (max next full) next)
+                    (numerics-dopri-largest-step run)))
     (setf (numerics-dopri-step run) (if (< step 0d0) (- next) next)
           (numerics-dopri-rejected-p run) nil)))
 

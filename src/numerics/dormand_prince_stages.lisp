@@ -1,22 +1,23 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; One step of the explicit method of order 8 by Dormand and Prince: its slopes, its new state with
 ;;; the two estimates of the error, and the state between, by a polynomial of degree 7 that takes
-;;; three slopes more (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I,
-;;; sections II.5 and II.6; code dop853.f). What a step adds to the state keeps the part that rounding
-;;; takes from it, for the next step.
+;;; three slopes more (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations
+;;; I, sections II.5 and II.6; code dop853.f). What a step adds to the state keeps the part that
+;;; rounding takes from it, for the next step.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/dormand_prince" "numerics/dormand_prince_coefficients"
+  (core-require "numerics/dormand_prince_coefficients"
                 "numerics/problem" "numerics/step_control"))
 
-(defstruct numerics-dopri
+(defstruct (numerics-dopri-run (:conc-name numerics-dopri-))
   "A run under way."
   problem controls
   (rates #'identity :type function)
   (scales (numerics-zeros 0) :type numerics-vector)
   (relative 0d0 :type double-float)
+  (largest-step 0d0 :type double-float)
   (size 0 :type fixnum)
   (step 0d0 :type double-float)                ; with its sign
   (error 0d0 :type double-float)               ; of the last trial, over the tolerance
@@ -36,19 +37,30 @@
   (slopes (vector) :type simple-vector)        ; by the numbers of the stages
   (dense (vector) :type simple-vector)         ; coefficients of the polynomial, from the second on
   (dense-p nil)                                ; they are those of this step
+  (pace nil)
+  (about nil)                                  ; a sentence on how the run ended
   (seen (make-numerics-step)))                 ; what the observer sees
 
-(defun numerics-new-dopri (problem controls moment state)
+(defun numerics-new-dopri-run (problem controls moment state)
   (let ((n (numerics-problem-size problem)))
+    (assert (= n (length state)))
     (flet ((vectors (count) (coerce (loop repeat count collect (numerics-zeros n)) 'simple-vector)))
-      (make-numerics-dopri
+      (make-numerics-dopri-run
        :problem problem :controls controls :rates (numerics-problem-rates problem) :size n
        :scales (numerics-full-scales controls n)
        :relative (numerics-controls-relative controls)
-       :moment (copy-seq moment) :state (copy-seq state) :next (numerics-zeros n) :low (numerics-zeros n) :next-low (numerics-zeros n)
-       :stage (numerics-zeros n) :slopes (vectors 17) :dense (vectors 8)))))
+       :largest-step (numerics-largest-step controls moment)
+       :pace (make-numerics-pace :moment (copy-seq moment))
+       :moment (copy-seq moment) :state (copy-seq state) :next (numerics-zeros n)
+       :low (numerics-zeros n) :next-low (numerics-zeros n) :stage (numerics-zeros n)
+       :slopes (vectors 17) :dense (vectors 8)))))
 
 ;;; Slopes
+
+(defmacro numerics-for-states ((i n) &body body)
+  "BODY for each place I of a state. All vectors of a run itself have the length N, so that nothing
+is checked: a sixth of the time."
+  `(locally (declare (optimize speed (safety 0))) (dotimes (,i ,n) ,@body)))
 
 (defmacro numerics-with-slopes ((run &rest numbers) &body body)
   "BODY with the size N, the STEP, the STATE, the STAGE and the slopes k1, .. of NUMBERS of RUN."
@@ -66,7 +78,7 @@
   "Makes the slope NUMBER of RUN from the stage before it."
   `(numerics-with-slopes (,run ,@(mapcar #'car (numerics-dopri-weights :stage number)))
      (let ((moment (numerics-dopri-moment ,run)) (later (numerics-dopri-stage-moment ,run)))
-       (dotimes (i n)
+       (numerics-for-states (i n)
          (setf (aref stage i)
                (+ (aref state i) (* step (numerics-slope-sum :stage ,number i)))))
        (setf (aref later 0) (aref moment 0) (aref later 1) (aref moment 1))
@@ -100,7 +112,7 @@
           (low (numerics-dopri-low run)) (next-low (numerics-dopri-next-low run))
           (fifth 0d0) (third 0d0) (doubt 0d0))
       (declare (double-float fifth third doubt))
-      (dotimes (i n)
+      (numerics-for-states (i n)
         (let* ((slope (numerics-slope-sum :stage 13 i)) (error (numerics-slope-sum :error 0 i))
                (old (aref state i)) (rise (+ (* step slope) (aref low i)))
                (new (+ old rise)) (risen (- new old))
@@ -123,7 +135,7 @@ way from the last stage to the new state is more than 6.1."
     (let ((next (numerics-dopri-next run)) (scales (numerics-dopri-scales run))
           (slope 0d0) (way 0d0))
       (declare (double-float slope way))
-      (dotimes (i n)
+      (numerics-for-states (i n)
         (let ((scale (numerics-scale (aref state i) (aref next i) (aref scales i))))
           (setf slope (max slope (/ (abs (- (aref k13 i) (aref k12 i))) scale))
                 way (max way (/ (abs (- (aref next i) (aref stage i))) scale)))))
@@ -156,7 +168,7 @@ way from the last stage to the new state is more than 6.1."
   (numerics-with-slopes (run 1 6 7 8 9 10 11 12 13 14 15 16)
     (numerics-with-dense (run)
       (let ((next (numerics-dopri-next run)))
-        (dotimes (i n)
+        (numerics-for-states (i n)
           (let* ((way (- (aref next i) (aref state i))) (bend (- (* step (aref k1 i)) way)))
             (setf (aref d1 i) way
                   (aref d2 i) bend

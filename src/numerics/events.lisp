@@ -2,13 +2,13 @@
 ;;; Events: zeros of functions g(t, x) along a run, between its steps by dense output. Each step is
 ;;; looked at in 17 places. Between two of them a change of sign is a crossing, found to the last
 ;;; place of t; where |g| falls at one and rises at the other, g may touch 0 or cross it twice, and
-;;; its least value decides. A run that starts at a zero does not meet it there. Directions are those
-;;; along the run. Look first at numerics-see-events.
+;;; its least value decides. A run that starts at a zero does not meet it there. Directions are
+;;; those along the run. Look first at numerics-see-events.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/roots"))
+  (core-require "numerics/problem" "numerics/zeros_between"))
 
 (defparameter *numerics-touch* 1d-14
   "A value is 0, as far as rounding tells, below this share of the largest one in the step.")
@@ -16,11 +16,11 @@
 (defstruct numerics-events
   functions                     ; (moment x out): g_1, .. into OUT
   (count 0 :type fixnum)
-  directions                    ; list: 1 for crossings upwards, -1 downwards, 0 for both and touches
+  directions                    ; list: 1 for crossings upwards, -1 downwards, 0 for all zeros
   stops                         ; list: whether the run ends there
   project                       ; nil, or (moment x): brings a state back to the constraints
   (found '())                   ; the last one first
-  (sides nil)                   ; vector of the signs of g_1, .. before the step; nil before the run
+  (sides nil)                   ; vector: signs of g_1, .. before the step; nil before the run
   (samples (numerics-zeros 0) :type numerics-vector) ; of each, k/16 of the step
   (values (numerics-zeros 0) :type numerics-vector)
   (moment (numerics-zeros 2) :type numerics-vector)
@@ -140,8 +140,8 @@ which it goes."
         (t (sum 3d0 -16d0 36d0 -48d0 25d0))))))
 
 (defun numerics-may-dip-p (events place side k)
-  "Whether |g| falls at the sample K, rises at the next, and its tangents there meet below 0. (A zero
-at the sample K itself was met before it.)"
+  "Whether |g| falls at the sample K, rises at the next, and its tangents there meet below 0. (A
+zero at the sample K itself was met before it.)"
   (let ((left (* side (numerics-sample events place k)))
         (right (* side (numerics-sample events place (1+ k))))
         (falls (- (* side (numerics-sample-slope events place k))))
@@ -182,18 +182,30 @@ at the sample K itself was met before it.)"
     (unless (zerop side)
       (list (list share place (if (= after side) 0 (- side)))))))
 
+(defun numerics-crossing-after (events step place k direction)
+  "The crossing between the sample K and the next; none where the function has a pole."
+  (let* ((share (numerics-crossing events step place (/ k 16d0) (/ (1+ k) 16d0)))
+         (value (aref (numerics-events-at events step share) place)))
+    (when (<= (abs value) (max (abs (numerics-sample events place k))
+                               (abs (numerics-sample events place (1+ k)))))
+      (list (list share place direction)))))
+
 (defun numerics-zeros-after (events step place k)
-  "Zeros of the function PLACE after the sample K up to the next; its new side is noted."
-  (let ((side (svref (numerics-events-sides events) place))
-        (new (numerics-side (numerics-sample events place (1+ k)))))
-    (cond ((zerop new) (numerics-zero-at events step place side (1+ k)))
+  "Zeros of the function PLACE after the sample K up to the next; its new side is noted. Where it has
+no value there is no zero, and it begins anew after that."
+  (let* ((sides (numerics-events-sides events)) (side (svref sides place))
+         (here (numerics-sample events place k)) (there (numerics-sample events place (1+ k)))
+         (new (numerics-side there)))
+    (cond ((not (and (numerics-finite-p here) (numerics-finite-p there)))
+           (setf (svref sides place) (if (numerics-finite-p there) new 0))
+           nil)
+          ((zerop new) (numerics-zero-at events step place side (1+ k)))
           ((= new side)
            (when (numerics-may-dip-p events place side k)
              (numerics-dip events step place side k)))
-          (t (setf (svref (numerics-events-sides events) place) new)
+          (t (setf (svref sides place) new)
              (unless (zerop side)
-               (list (list (numerics-crossing events step place (/ k 16d0) (/ (1+ k) 16d0))
-                           place new)))))))
+               (numerics-crossing-after events step place k new))))))
 
 (defun numerics-wanted-zeros (events step)
   "Zeros in STEP in the order of time, of the wanted directions."

@@ -72,5 +72,5 @@
    :status status :moment moment :state state :step step
    :about (case status
             (:not-finite "the rates have no finite value in a step of Gauss' method")
-            (:no-convergence "the stages of Gauss' method do not converge: the step is too long or \
-the system stiff"))))
+            (:no-convergence
+             "the stages of Gauss' method do not converge: too long a step, or a stiff system"))))

@@ -96,64 +96,71 @@ SHARE of all, or less than half as many as the product has entries."
 (defun numerics-count-operations (elements)
   (count-if-not #'algebra-input-p (algebra-live-nodes elements)))
 
-;;; The product: to each row belong entries whose factors are states and entries whose factors are
-;;; places of the work vector of a program.
+;;; The product, in two halves: one with the states, for all rows, and one with the work vector of a
+;;; program, for those rows that have such terms. A half has rows from starts[i] to before
+;;; starts[i+1] at places[i].
 
-(defstruct numerics-product
+(defstruct numerics-half
   (places (make-array 0 :element-type '(unsigned-byte 32)) :type numerics-indices)
-  (constants (numerics-zeros 0) :type numerics-vector)
   (starts (make-array 0 :element-type '(unsigned-byte 32)) :type numerics-indices)
   (factors (make-array 0 :element-type '(unsigned-byte 32)) :type numerics-indices)
-  (values (numerics-zeros 0) :type numerics-vector)
-  (work-starts (make-array 0 :element-type '(unsigned-byte 32)) :type numerics-indices)
-  (work-factors (make-array 0 :element-type '(unsigned-byte 32)) :type numerics-indices)
-  (work-values (numerics-zeros 0) :type numerics-vector))
+  (values (numerics-zeros 0) :type numerics-vector))
+
+(defstruct numerics-product
+  (constants (numerics-zeros 0) :type numerics-vector)
+  states work) ; halves
 
 (defun numerics-index-vector (list) (coerce list 'numerics-indices))
 (defun numerics-double-vector (list) (coerce list 'numerics-vector))
 
+(defun numerics-new-half (rows)
+  "ROWS are (place (factor . double) ..)."
+  (flet ((all (key) (loop for (nil . terms) in rows append (mapcar key terms))))
+    (make-numerics-half
+     :places (numerics-index-vector (mapcar #'car rows))
+     :starts (let ((sum 0))
+               (numerics-index-vector
+                (cons 0 (loop for (nil . terms) in rows collect (incf sum (length terms))))))
+     :factors (numerics-index-vector (all #'car))
+     :values (numerics-double-vector (all #'cdr)))))
+
 (defun numerics-new-product (rows state-place work-place double)
   "The product of ROWS (place . form). STATE-PLACE gives the place of a node among the states, or
 nil, WORK-PLACE that in the work vector; DOUBLE rounds a rational number."
-  (flet ((terms (row state-p)
-           (loop for (node . coefficient) in (cddr row)
-                 for place = (funcall state-place node)
-                 when (if state-p place (not place))
-                   collect (cons (or place (funcall work-place node))
-                                 (funcall double coefficient))))
-         (starts (lists)
-           (let ((sum 0))
-             (numerics-index-vector
-              (cons 0 (loop for list in lists collect (incf sum (length list))))))))
-    (let ((states (loop for row in rows collect (terms row t)))
-          (work (loop for row in rows collect (terms row nil))))
-      (flet ((all (lists key) (loop for list in lists append (mapcar key list))))
-        (make-numerics-product
-         :places (numerics-index-vector (mapcar #'first rows))
-         :constants (numerics-double-vector
-                     (loop for row in rows collect (funcall double (second row))))
-         :starts (starts states) :factors (numerics-index-vector (all states #'car))
-         :values (numerics-double-vector (all states #'cdr))
-         :work-starts (starts work) :work-factors (numerics-index-vector (all work #'car))
-         :work-values (numerics-double-vector (all work #'cdr)))))))
+  (flet ((half (state-p)
+           (loop for (row nil . terms) in rows
+                 collect (cons row
+                               (loop for (node . coefficient) in terms
+                                     for place = (funcall state-place node)
+                                     when (if state-p place (not place))
+                                       collect (cons (or place (funcall work-place node))
+                                                     (funcall double coefficient)))))))
+    (make-numerics-product
+     :constants (numerics-double-vector (loop for row in rows collect (funcall double (second row))))
+     :states (numerics-new-half (half t))
+     :work (numerics-new-half (remove nil (half nil) :key #'cdr)))))
+
+(defun numerics-terms-in-order (terms state-p)
+  "TERMS in the order in which a product adds them: those with states first."
+  (append (remove-if-not state-p terms :key #'car) (remove-if state-p terms :key #'car)))
+
+(defmacro numerics-half-loop (half vector begin)
+  "Sets OUT at each place of HALF to BEGIN, a form in i and place, and the terms with VECTOR."
+  `(let ((places (numerics-half-places ,half)) (starts (numerics-half-starts ,half))
+         (factors (numerics-half-factors ,half)) (values (numerics-half-values ,half)) (k 0))
+     (declare (type (unsigned-byte 61) k))
+     (dotimes (i (length places))
+       (let* ((place (aref places i)) (sum ,begin) (end (aref starts (1+ i))))
+         (declare (double-float sum))
+         (loop while (< k end)
+               do (incf sum (* (aref values k) (aref ,vector (aref factors k))))
+                  (incf k))
+         (setf (aref out place) sum)))))
 
 (defun numerics-multiply-rows (product state work out)
   "The rows of PRODUCT for the vectors STATE and WORK into OUT."
   (declare (type numerics-vector state work out) (optimize speed (safety 0)))
-  (let ((places (numerics-product-places product))
-        (constants (numerics-product-constants product))
-        (starts (numerics-product-starts product))
-        (factors (numerics-product-factors product))
-        (values (numerics-product-values product))
-        (work-starts (numerics-product-work-starts product))
-        (work-factors (numerics-product-work-factors product))
-        (work-values (numerics-product-work-values product)))
-    (dotimes (i (length places))
-      (let ((sum (aref constants i)))
-        (declare (double-float sum))
-        (loop for k of-type numerics-index from (aref starts i) below (aref starts (1+ i))
-              do (incf sum (* (aref values k) (aref state (aref factors k)))))
-        (loop for k of-type numerics-index from (aref work-starts i)
-                below (aref work-starts (1+ i))
-              do (incf sum (* (aref work-values k) (aref work (aref work-factors k)))))
-        (setf (aref out (aref places i)) sum)))))
+  (let ((constants (numerics-product-constants product))
+        (states (numerics-product-states product)) (others (numerics-product-work product)))
+    (numerics-half-loop states state (aref constants i))
+    (numerics-half-loop others work (aref out place))))

@@ -1,10 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Systems (s*M - J) x = b of implicit methods. By size and pattern: KLU above 200 unknowns where it
-;;; is installed; else elimination in the band that reverse Cuthill-McKee leaves, where that is
+;;; Systems (s*M - J) x = b of implicit methods. By size and pattern: KLU above 200 unknowns where
+;;; it is installed; else elimination in the band that reverse Cuthill-McKee leaves, where that is
 ;;; cheaper; else in the full matrix.
 ;;;     (numerics-make-solver n pattern mass :complex nil) -> solver
-;;;     (numerics-factor solver entries-of-J)   with the slots shift, shift-imaginary set before; true
-;;;             where singular: singular-column follows from the others, and singular-row if not nil
+;;;     (numerics-factor solver entries-of-J)   with the slots shift, shift-imaginary set before;
+;;;             true where singular: singular-column follows from the others, so does singular-row
 ;;;     (numerics-solve solver x [y])           in place, y the imaginary parts
 ;;;     (numerics-release-solver solver)        at the end
 
@@ -12,28 +12,40 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/problem" "numerics/linear_solver_matrix" "numerics/linear_solver_order"
-                "numerics/linear_solver_elimination" "numerics/linear_solver_klu"
+                "numerics/linear_solver_scales" "numerics/linear_solver_elimination"
+                "numerics/linear_solver_klu"
                 "numerics/null_space"))
 
-(defparameter *numerics-most-without-klu* 200 "Unknowns of a sparse system that KLU is not asked for.")
+(defparameter *numerics-most-without-klu* 200
+  "Unknowns of a sparse system that KLU is not asked for.")
 (defparameter *numerics-most-entries* 25000000 "Of a matrix in our own storage.")
 
 (defun numerics-band-pays-p (n lower upper)
   "Whether the elimination within the band costs less than half of the full one."
   (< (* 2 n (1+ lower) (+ 1 lower upper)) (/ (expt n 3) 6)))
 
-(defun numerics-solver-kind-for (pattern order)
+(defun numerics-large-and-sparse-p (pattern)
   (let ((n (numerics-pattern-size pattern)) (entries (length (numerics-pattern-rows pattern))))
-    (multiple-value-bind (lower upper) (numerics-band-widths pattern order)
-      (cond ((and (> n *numerics-most-without-klu*) (< entries (/ (* n n) 10))
-                  (numerics-find-klu))
-             :klu)
-            ((numerics-band-pays-p n lower upper) :banded)
-            (t :dense)))))
+    (and (> n *numerics-most-without-klu*) (< entries (/ (* n n) 10)))))
+
+(defun numerics-solver-kind-for (pattern order)
+  (multiple-value-bind (lower upper) (numerics-band-widths pattern order)
+    (cond ((and (numerics-large-and-sparse-p pattern) (numerics-find-klu)) :klu)
+          ((numerics-band-pays-p (numerics-pattern-size pattern) lower upper) :banded)
+          (t :dense))))
+
+(defun numerics-solver-remark (solver)
+  "A sentence where KLU, which is not there, would take less; or nil."
+  (let ((width (+ 1 (numerics-solver-lower solver) (numerics-solver-upper solver))))
+    (when (and (numerics-large-and-sparse-p (numerics-solver-pattern solver)) (> width 20)
+               (null (numerics-find-klu)))
+      (format nil "the systems of ~d equations are solved ~:[by full~;within a band of ~d, by~] ~
+                   elimination; SBCL with the library KLU (package libklu1 or libklu2) is faster"
+              (numerics-solver-size solver) (eq (numerics-solver-kind solver) :banded) width))))
 
 (defun numerics-make-solver (n pattern mass &key complex kind)
-  "PATTERN of the Jacobian, nil for a full one; MASS a numerics-matrix, nil for the identity; KIND nil
-where it is chosen here."
+  "PATTERN of the Jacobian, nil for a full one; MASS a numerics-matrix, nil for the identity; KIND
+nil where it is chosen here."
   (let* ((pattern (or pattern (numerics-full-pattern n)))
          (mass (or mass (numerics-identity n)))
          (whole (numerics-united-pattern pattern (numerics-matrix-pattern mass)))
@@ -68,8 +80,8 @@ where it is chosen here."
          (unknown-places (numerics-places-of (numerics-solver-order solver)))
          (whole (numerics-solver-pattern solver)))
     (when (> entries *numerics-most-entries*)
-      (core-error "a matrix of ~d rows, with entries far from its diagonal, needs sparse elimination; ~
-                   install the library KLU (package libklu1 or libklu2)"
+      (core-error "a matrix of ~d rows, with entries far from its diagonal, needs sparse ~
+                   elimination; install the library KLU (package libklu1 or libklu2)"
                   n))
     (flet ((vector-of (count) (numerics-zeros count))
            (moved (numbers)
@@ -80,9 +92,8 @@ where it is chosen here."
             (vector-of (if (numerics-solver-complex solver) entries 0))
             (numerics-solver-rows solver) (moved (numerics-pattern-rows whole))
             (numerics-solver-columns solver) (moved (numerics-column-numbers whole))
-            (numerics-solver-row-sizes solver) (vector-of n)
-            (numerics-solver-column-sizes solver) (vector-of n)
-            (numerics-solver-row-order solver) (numerics-index-zeros n)
+            (numerics-solver-row-scales solver) (vector-of n)
+            (numerics-solver-column-scales solver) (vector-of n)
             (numerics-solver-pivots solver) (numerics-index-zeros n)
             (numerics-solver-work solver) (vector-of n)
             (numerics-solver-work-imaginary solver) (vector-of n)))
@@ -111,12 +122,21 @@ where it is chosen here."
   "Factors of shift*M - J; true where this is singular."
   (numerics-assemble solver jacobian)
   (cond ((eq (numerics-solver-kind solver) :klu) (numerics-factor-by-klu solver))
-        (t (numerics-measure-entries solver)
-           (cond ((numerics-solver-complex solver) (numerics-eliminate-complex solver))
-                 ((numerics-eliminate solver) (numerics-find-singular-row solver jacobian))))))
+        (t (numerics-unit-scales solver)
+           (and (numerics-eliminate-measured solver)
+                (progn (numerics-assemble solver jacobian)
+                       (numerics-balance-columns solver)
+                       (numerics-eliminate-measured solver))
+                (numerics-find-singular-row solver jacobian)))))
+
+(defun numerics-eliminate-measured (solver)
+  (numerics-measure-entries solver)
+  (if (numerics-solver-complex solver)
+      (numerics-eliminate-complex solver)
+      (numerics-eliminate solver)))
 
 (defun numerics-find-singular-row (solver jacobian)
-  "Notes a row that follows from the others. True."
+  "Notes a row of a real matrix that follows from the others. True."
   (numerics-assemble solver jacobian)
   (let* ((places (numerics-solver-places solver)) (values (numerics-zeros (length places)))
          (real (numerics-solver-real solver)))
@@ -126,7 +146,8 @@ where it is chosen here."
                                                      :values values)
                                nil))))
       (setf (numerics-solver-singular-row solver)
-            (and combination (car (numerics-largest-entry combination))))
+            (and combination (not (numerics-solver-complex solver))
+                 (car (numerics-largest-entry combination))))
       t)))
 
 (defun numerics-orientation (solver)

@@ -1,14 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Elimination with partial pivoting, real, and complex with the imaginary parts apart (Golub & Van
-;;; Loan: Matrix Computations, sections 3.4 and 4.3). One code serves full and banded matrices: the
-;;; entry of row i and column j stands at i + j*stride + offset, and is no zero only where
-;;; -upper-lower <= i - j <= lower (the exchanges of rows widen the upper band). Rows are exchanged
-;;; column by column as the elimination reaches them; what is 0 in the row of the pivot costs nothing.
+;;; Elimination with partial pivoting, real, and complex with the imaginary parts apart (Golub &
+;;; Van Loan: Matrix Computations, sections 3.4 and 4.3). One code serves full and banded
+;;; matrices: the entry of row i and column j stands at i + j*stride + offset, and is no zero only
+;;; where -upper-lower <= i - j <= lower (the exchanges of rows widen the upper band). Rows are
+;;; exchanged column by column as the elimination reaches them; what is 0 in the row of the pivot
+;;; costs nothing.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/linear_solver_matrix"))
+  (core-require "numerics/problem" "numerics/linear_solver_matrix"
+                "numerics/linear_solver_scales"))
 
 (defmacro numerics-with-band ((solver &rest more) &body body)
   "BODY with n, the widths, and (place i j) in the storage; MORE are names of vectors of SOLVER."
@@ -26,8 +28,9 @@
        (declare (inline place))
        ,@body)))
 
-;;; Kernels: n numbers of X from the place FROM on, FACTOR times, are taken from those of Y from TO on.
-;;; All places lie within the columns, so nothing is checked; four numbers a turn take half the time.
+;;; Kernels: n numbers of X from the place FROM on, FACTOR times, are taken from those of Y from
+;;; TO on. All places lie within the columns, so nothing is checked; four numbers a turn take half
+;;; the time.
 
 (defmacro numerics-subtract-multiple (n factor x from y to)
   `(let ((count ,n) (p ,from) (q ,to) (factor ,factor))
@@ -57,42 +60,34 @@
 
 ;;; Pivots.
 
-(declaim (inline numerics-largest-below numerics-largest-complex-below numerics-exchange-rows))
-
-(defun numerics-largest-below (x place count)
-  "How far below PLACE, at most COUNT, the largest number of X stands."
-  (declare (type numerics-vector x) (type numerics-index place) (type (unsigned-byte 24) count))
-  (let ((chosen 0) (largest (abs (aref x place))))
-    (declare (type (unsigned-byte 24) chosen))
-    (loop for i of-type (unsigned-byte 24) from 1 to count
-          do (let ((magnitude (abs (aref x (+ place i)))))
-               (when (> magnitude largest) (setq largest magnitude chosen i))))
-    chosen))
-
-(defun numerics-largest-complex-below (x y place count)
-  (declare (type numerics-vector x y) (type numerics-index place)
-           (type (unsigned-byte 24) count))
-  (let ((chosen 0) (largest (+ (abs (aref x place)) (abs (aref y place)))))
-    (declare (type (unsigned-byte 24) chosen))
-    (loop for i of-type (unsigned-byte 24) from 1 to count
-          do (let ((magnitude (+ (abs (aref x (+ place i))) (abs (aref y (+ place i))))))
-               (when (> magnitude largest) (setq largest magnitude chosen i))))
-    chosen))
+(defmacro numerics-largest-below (count scales k place-and-size)
+  "How far below the diagonal of column K, at most COUNT, the entry stands that is largest after it
+is multiplied with its row's of SCALES. PLACE-AND-SIZE: (i e), the size E of the entry I below."
+  (destructuring-bind (i e) place-and-size
+    `(let ((chosen 0) (largest -1d0))
+       (declare (type (unsigned-byte 24) chosen) (double-float largest))
+       (loop for ,i of-type (unsigned-byte 24) from 0 to ,count
+             do (let ((magnitude (* ,e (aref ,scales (+ ,k ,i)))))
+                  (when (> magnitude largest) (setq largest magnitude chosen ,i))))
+       chosen)))
 
 (defun numerics-note-pivot (solver k row)
   (declare (type fixnum k row))
-  (let ((row-order (numerics-solver-row-order solver)))
+  (let ((scales (numerics-solver-row-scales solver)))
     (setf (aref (numerics-solver-pivots solver) k) row)
-    (rotatef (aref row-order k) (aref row-order row))))
+    (rotatef (aref scales k) (aref scales row))
+    nil))
 
 ;;; The factors of the assembled matrix in its place; true where it is singular.
 
 (defun numerics-eliminate (solver)
   (declare (optimize speed))
-  (numerics-with-band (solver real)
+  (numerics-with-band (solver real row-scales)
     (dotimes (k n nil)
       (let* ((rows (min below (- n k 1))) (columns (min above (- n k 1)))
-             (diagonal (place k k)) (chosen (numerics-largest-below real diagonal rows)))
+             (diagonal (place k k))
+             (chosen (numerics-largest-below rows row-scales k
+                                             (i (abs (aref real (+ diagonal i)))))))
         (declare (type (unsigned-byte 24) rows columns))
         (numerics-note-pivot solver k (+ k chosen))
         (rotatef (aref real diagonal) (aref real (+ diagonal chosen)))
@@ -122,11 +117,13 @@
 
 (defun numerics-eliminate-complex (solver)
   (declare (optimize speed))
-  (numerics-with-band (solver real imaginary)
+  (numerics-with-band (solver real imaginary row-scales)
     (dotimes (k n nil)
       (let* ((rows (min below (- n k 1))) (columns (min above (- n k 1)))
              (diagonal (place k k))
-             (chosen (numerics-largest-complex-below real imaginary diagonal rows)))
+             (chosen (numerics-largest-below rows row-scales k
+                                             (i (+ (abs (aref real (+ diagonal i)))
+                                                   (abs (aref imaginary (+ diagonal i))))))))
         (declare (type (unsigned-byte 24) rows columns))
         (numerics-note-pivot solver k (+ k chosen))
         (rotatef (aref real diagonal) (aref real (+ diagonal chosen)))

@@ -99,7 +99,7 @@
       t)))
 
 (defun numerics-old-pivots-serve-p (solver klu)
-  "Whether the pivots of the last factors do for this matrix: no column has grown by more than 2^13."
+  "Whether the pivots of the last factors do for this matrix: no column has grown by 2^13."
   (and (plusp (aref (numerics-klu-numeric klu) 0))
        (= 1 (numerics-klu-call "klu_refactor" "klu_z_refactor" :int))
        (= 1 (numerics-klu-call "klu_rgrowth" "klu_z_rgrowth" :int))

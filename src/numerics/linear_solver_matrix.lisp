@@ -1,14 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The matrices that implicit methods solve with: s*M - J with a number s, real or complex, a constant
-;;; sparse mass matrix M (or the identity) and a sparse Jacobian J. Where each entry stands in the
-;;; storage of a solver is found once; after that a matrix is made by two sweeps over the entries.
+;;; The matrices that implicit methods solve with: s*M - J with a number s, real or complex, a
+;;; constant sparse mass matrix M (or the identity) and a sparse Jacobian J. Where each entry
+;;; stands in the storage of a solver is found once; after that a matrix is made by two sweeps
+;;; over the entries.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/problem"))
 
-(defun numerics-index-zeros (n) (make-array n :element-type '(unsigned-byte 32) :initial-element 0))
+(defun numerics-index-zeros (n)
+  (make-array n :element-type '(unsigned-byte 32) :initial-element 0))
 
 (defstruct numerics-solver
   kind                   ; :dense, :banded or :klu
@@ -23,15 +25,14 @@
   (pattern nil)          ; of M and J together
   (places (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; of its entries,
   (rows (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*)))   ; their rows
-  (columns (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; and columns there
+  (columns (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; and columns
   (jacobian-places (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*)))
   (mass-places (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*)))
   (mass (numerics-zeros 0) :type (simple-array double-float (*)))
   ;; For the elimination.
-  (row-sizes (numerics-zeros 0) :type (simple-array double-float (*)))    ; largest entries
-  (column-sizes (numerics-zeros 0) :type (simple-array double-float (*)))
+  (row-scales (numerics-zeros 0) :type (simple-array double-float (*)))       ; see below
+  (column-scales (numerics-zeros 0) :type (simple-array double-float (*)))
   (pivots (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*)))
-  (row-order (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; after exchanges
   (order (numerics-index-zeros 0) :type (simple-array (unsigned-byte 32) (*))) ; place -> unknown
   (work (numerics-zeros 0) :type (simple-array double-float (*)))
   (work-imaginary (numerics-zeros 0) :type (simple-array double-float (*)))
@@ -142,40 +143,3 @@
       (setf (aref real (aref mass-places k)) (* shift (aref mass k))))
     (dotimes (k (length jacobian-places) solver)
       (decf (aref real (aref jacobian-places k)) (aref jacobian k)))))
-
-;;; When a pivot is nothing but rounding: it is compared with the smaller of the largest entries that
-;;; its row and its column had before the elimination.
-
-(defun numerics-measure-entries (solver)
-  (declare (optimize speed))
-  (let ((real (numerics-solver-real solver)) (imaginary (numerics-solver-imaginary solver))
-        (complex (numerics-solver-complex solver)) (places (numerics-solver-places solver))
-        (rows (numerics-solver-rows solver)) (columns (numerics-solver-columns solver))
-        (row-sizes (numerics-solver-row-sizes solver))
-        (column-sizes (numerics-solver-column-sizes solver))
-        (row-order (numerics-solver-row-order solver)))
-    (fill row-sizes 0d0)
-    (fill column-sizes 0d0)
-    (dotimes (i (length row-order)) (setf (aref row-order i) i))
-    (dotimes (k (length places) solver)
-      (let* ((place (aref places k)) (i (aref rows k)) (j (aref columns k))
-             (magnitude (if complex
-                       (+ (abs (aref real place)) (abs (aref imaginary place)))
-                       (abs (aref real place)))))
-        (setf (aref row-sizes i) (max magnitude (aref row-sizes i))
-              (aref column-sizes j) (max magnitude (aref column-sizes j)))))))
-
-(declaim (inline numerics-no-pivot-p))
-(defun numerics-no-pivot-p (solver magnitude k)
-  "Whether MAGNITUDE, of the pivot in column K and the row that stands there now, is rounding alone."
-  (declare (double-float magnitude) (fixnum k))
-  (let ((row (aref (numerics-solver-row-order solver) k)))
-    (not (> magnitude (* 2.2d-16 (numerics-solver-size solver)
-                    (min (aref (numerics-solver-row-sizes solver) row)
-                         (aref (numerics-solver-column-sizes solver) k)))))))
-
-(defun numerics-note-singular (solver k)
-  "Column K has no pivot. True."
-  (setf (numerics-solver-singular-column solver) (aref (numerics-solver-order solver) k)
-        (numerics-solver-singular-row solver) nil)
-  t)

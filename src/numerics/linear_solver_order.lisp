@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; An order of the unknowns that brings the entries of a sparse matrix near its diagonal: reverse
 ;;; Cuthill-McKee (George & Liu: Computer Solution of Large Sparse Positive Definite Systems,
-;;; chapter 4). Unknowns that stand in one row or column with an entry are neighbours; each connected
-;;; part is walked from one that lies far out, neighbours of few neighbours first.
+;;; chapter 4). Unknowns that stand in one row or column with an entry are neighbours; each
+;;; connected part is walked from one that lies far out, neighbours of few neighbours first.
 
 (in-package :maxima)
 

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem"))
+  (core-require "numerics/decimals" "numerics/problem"))
 
 (defun numerics-observer (parts)
   "One observer that asks all of PARTS, functions of the step, in their order."
@@ -20,7 +20,7 @@
 ;;; Rows
 
 (defstruct numerics-rows
-  times                                              ; vector in the order of the run; nil: each step
+  times                                              ; vector along the run; nil: each step
   project                                            ; nil, or (moment x)
   (next 0 :type fixnum)                              ; the next of the times
   (width 0 :type fixnum)
@@ -49,8 +49,8 @@
     (incf (numerics-rows-count rows))))
 
 (defun numerics-new-rows (times moment state project)
-  "Rows at TIMES; the first is STATE at MOMENT where it is asked for. PROJECT brings a state that was
-found between two steps back to the constraints."
+  "Rows at TIMES; the first is STATE at MOMENT where it is asked for. PROJECT brings a state that
+was found between two steps back to the constraints."
   (let ((rows (make-numerics-rows :times times :project project :width (1+ (length state))
                                   :state (copy-seq state)))
         (start (aref moment 0)))
@@ -100,17 +100,15 @@ found between two steps back to the constraints."
   (count 0 :type fixnum)
   (first (numerics-zeros 0) :type numerics-vector)   ; the values at the start
   (values (numerics-zeros 0) :type numerics-vector)
-  (largest (numerics-zeros 0) :type numerics-vector) ; drifts, then sizes
-  (moment (numerics-zeros 2) :type numerics-vector))
+  (largest (numerics-zeros 0) :type numerics-vector)) ; drifts, then sizes
 
 (defun numerics-new-drifts (functions count moment state)
   "Looks at COUNT values of FUNCTIONS, which gives after them what each of them is a small sum of."
-  (let ((values (numerics-zeros (* 2 count))))
+  (let ((values (numerics-zeros (* 2 count))) (largest (numerics-zeros (* 2 count))))
     (funcall functions moment state values)
-    (make-numerics-drifts
-     :functions functions :count count :first (subseq values 0 count) :values values
-     :largest (replace (numerics-zeros (* 2 count)) (map 'numerics-vector #'abs (subseq values count))
-                       :start1 count))))
+    (loop for k from count below (* 2 count) do (setf (aref largest k) (abs (aref values k))))
+    (make-numerics-drifts :functions functions :count count :first (subseq values 0 count)
+                          :values values :largest largest)))
 
 (defun numerics-see-drifts (drifts step)
   "Notes the largest drifts and sizes at the end of STEP; nil."
@@ -141,6 +139,6 @@ are 0."
     (lambda (step)
       (when (>= (incf steps) 1000)
         (setq steps 0)
-        (core-progress "t = ~,4g of ~,4g" (aref (numerics-step-to step) 0)
-                       (numerics-controls-end controls)))
+        (core-progress "t = ~a of ~a" (numerics-short-number (aref (numerics-step-to step) 0))
+                       (numerics-short-number (numerics-controls-end controls))))
       nil)))

@@ -10,7 +10,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"
                 "algebra/program_record" "numerics/big_values" "numerics/linear_rows"
-                "numerics/native" "numerics/problem" "numerics/program"))
+                "numerics/native" "numerics/program"))
 
 (defstruct numerics-plan
   inputs    ; index of an input -> (kind . place): :time, :state or :seed

@@ -1,17 +1,18 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Integration of M x' = X(t, x), stiff or differential-algebraic of index 1, by the implicit method
-;;; Radau IIA of order 5 (Hairer & Wanner: Solving Ordinary Differential Equations II, section IV.8,
-;;; and their code radau5.f; the tolerance is taken as it is given, the norm is that of the controls).
-;;; The Jacobian and the factors of the two systems are kept as long as they serve. Look first at
-;;; numerics-radau, then at numerics-radau-step-on.
+;;; Integration of M x' = X(t, x), stiff or differential-algebraic of index 1, by the implicit
+;;; method Radau IIA of order 5 (Hairer & Wanner: Solving Ordinary Differential Equations II,
+;;; section IV.8, and their code radau5.f; the tolerance is taken as it is given, the norm is that
+;;; of the controls). The Jacobian and the factors of the two systems are kept as long as they
+;;; serve. Look first at numerics-radau, then at numerics-radau-step-on.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/native"
-                "numerics/problem" "numerics/radau_coefficients" "numerics/radau_control"
-                "numerics/radau_newton" "numerics/radau_run" "numerics/radau_start"
-                "numerics/radau_stiffness" "numerics/step_control"))
+  (core-require "numerics/problem" "numerics/step_control"
+                "numerics/linear_solver" "numerics/linear_solver_matrix"
+                "numerics/radau_coefficients" "numerics/radau_run"
+                "numerics/radau_start" "numerics/radau_newton" "numerics/radau_control"
+                "numerics/radau_stiffness"))
 
 (defun numerics-radau (problem controls moment state observer)
   "Integrates PROBLEM from STATE at MOMENT; an outcome."
@@ -113,9 +114,9 @@
                                                (numerics-radau-run-problem run)))
              :singular))))
 
-;;; An estimate by the real system is blind where a real eigenvalue of the Jacobian exceeds that of the
-;;; step: a solution that grows so fast, or a constraint past a singular point. Then the determinant
-;;; has not the sign that it has for short steps.
+;;; An estimate by the real system is blind where a real eigenvalue of the Jacobian exceeds that
+;;; of the step: a solution that grows so fast, or a constraint past a singular point. Then the
+;;; determinant has not the sign that it has for short steps.
 
 (defun numerics-radau-turned-p (run)
   (numerics-with-radau (run single orientation)

@@ -1,11 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Coefficients of the method Radau IIA with three stages, order 5 (Hairer & Wanner: Solving Ordinary
-;;; Differential Equations II, section IV.8; the columns of T as in their code radau5.f). With the
-;;; tableau (A, c) the matrix T^-1 A^-1 T has the rows (single-root, 0, 0), (0, pair-root, -pair-turn),
-;;; (0, pair-turn, pair-root), so that the three stages of the simplified Newton method split into a
-;;; real and a complex system.
+;;; Coefficients of the method Radau IIA with three stages, order 5 (Hairer & Wanner: Solving
+;;; Ordinary Differential Equations II, section IV.8; the columns of T as in their code radau5.f).
+;;; With the tableau (A, c) the matrix T^-1 A^-1 T has the rows (single-root, 0, 0), (0,
+;;; pair-root, -pair-turn), (0, pair-turn, pair-root), so that the three stages of the simplified
+;;; Newton method split into a real and a complex system.
 
 (in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "numerics/decimals"))
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (defparameter *numerics-radau-decimals*
@@ -31,20 +34,17 @@
       ;; The estimate of the error: -(13 + 7*sqrt(6))/3, (7*sqrt(6) - 13)/3, -1/3.
       (e1 "-10.04880939982741556246") (e2 "1.38214273316074889579")
       (e3 "-0.33333333333333333333"))
-    "Each row: a name and its decimals.")
+    "Each row: a name and its decimals."))
 
-  (defun numerics-decimal (text)
-    "The double-float number next to the decimals of TEXT."
-    (let* ((sign (if (char= (char text 0) #\-) -1 1)) (digits (string-left-trim "-" text))
-           (point (position #\. digits)))
-      (coerce (* sign (/ (parse-integer (remove #\. digits))
-                         (expt 10 (- (length digits) point 1))))
-              'double-float))))
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defun numerics-radau-number (name)
+    (let* ((text (second (assoc name *numerics-radau-decimals*)))
+           (size (numerics-rounded (numerics-decimal (string-left-trim "-" text)))))
+      (if (char= (char text 0) #\-) (- size) size))))
 
 (defmacro numerics-with-radau-numbers (names &body body)
   "BODY with the double-float numbers called NAMES."
   `(symbol-macrolet
        ,(loop for name in names
-              collect (list name (numerics-decimal
-                                  (second (assoc name *numerics-radau-decimals*)))))
+              collect (list name (numerics-radau-number name)))
      ,@body))

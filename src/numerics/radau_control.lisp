@@ -1,13 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The error of a step of Radau IIA, from an embedded formula of order 3 that is damped by the real
-;;; system, and the next step: the predictive control of Gustafsson (Hairer & Wanner: Solving Ordinary
-;;; Differential Equations II, section IV.8).
+;;; The error of a step of Radau IIA, from an embedded formula of order 3 that is damped by the
+;;; real system, and the next step: the predictive control of Gustafsson (Hairer & Wanner: Solving
+;;; Ordinary Differential Equations II, section IV.8).
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/linear_solver" "numerics/problem" "numerics/radau_coefficients"
-                "numerics/radau_newton" "numerics/radau_run" "numerics/sparse"))
+  (core-require "numerics/problem" "numerics/sparse" "numerics/linear_solver"
+                "numerics/radau_coefficients" "numerics/radau_run" "numerics/radau_newton"))
 
 ;;; The error.
 

@@ -124,10 +124,10 @@
         (setf (numerics-radau-run-change run) change)
         (numerics-finite-p change)))))
 
-;;; The iteration. A small change says nothing by itself: it may be the Jacobian that is too large, and
-;;; the stages what they were guessed to be. So one iteration is enough only where the same Jacobian
-;;; has shown to be that of a linear problem, and changes that stay as they are, not by rounding, are
-;;; refused.
+;;; The iteration. A small change says nothing by itself: it may be the Jacobian that is too
+;;; large, and the stages what they were guessed to be. So one iteration is enough only where the
+;;; same Jacobian has shown to be that of a linear problem, and changes that stay as they are, not
+;;; by rounding, are refused.
 
 (defun numerics-radau-find-stages (run)
   "Nil where the stages are found, else the factor by which the step must be shorter."

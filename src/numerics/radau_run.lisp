@@ -1,12 +1,12 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a run of Radau IIA holds between its steps, and what every part of it does with vectors. All
-;;; vectors are made once; a step changes them in place.
+;;; What a run of Radau IIA holds between its steps, and what every part of it does with vectors.
+;;; All vectors are made once; a step changes them in place.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/problem"
-                "numerics/sparse" "numerics/step_control"))
+  (core-require "numerics/problem" "numerics/step_control" "numerics/linear_solver_matrix"
+                "numerics/linear_solver"))
 
 (defmacro numerics-define-radau-run (vectors numbers &rest fields)
   "The structure, its VECTORS of the length of the state, NUMBERS, and other FIELDS."
@@ -42,7 +42,8 @@
  (moment (numerics-zeros 2) :type (simple-array double-float (*)))
  (seen (make-numerics-step))     ; the step as the observer sees it
  (later (numerics-zeros 2) :type (simple-array double-float (*))) ; the moment of a stage
- (entries (numerics-zeros 0) :type (simple-array double-float (*))) ; of the Jacobian
+ pattern               ; of the Jacobian, and its entries
+ (entries (numerics-zeros 0) :type (simple-array double-float (*)))
  single pair           ; the solvers of the real and of the complex system
  mass                  ; nil for the identity
  (jacobian :none)      ; :none, :old or :fresh: of the state at the beginning
@@ -58,31 +59,34 @@
  direction             ; of the power iterations for the radius, nil where it is not asked for
  about)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defun numerics-radau-reader (field)
+    (intern (format nil "NUMERICS-RADAU-RUN-~a" field) :maxima)))
+
 (defmacro numerics-with-radau ((run &rest fields) &body body)
   "BODY with the values of FIELDS of RUN under their names."
   `(let ,(loop for field in fields
-               collect `(,field (,(intern (format nil "NUMERICS-RADAU-RUN-~a" field) :maxima)
-                                 ,run)))
+               collect `(,field (,(numerics-radau-reader field) ,run)))
      ,@body))
 
 (defun numerics-new-radau (problem controls moment state)
   (let* ((n (numerics-problem-size problem)) (mass (numerics-problem-mass problem))
-         (pattern (numerics-problem-pattern problem))
+         (pattern (or (numerics-problem-pattern problem) (numerics-full-pattern n)))
          (run (make-numerics-radau-run
                :problem problem :controls controls :counts (numerics-controls-counts controls)
                :moment (copy-seq moment) :mass mass :before (copy-seq state)
                :after (copy-seq state) :scales (numerics-full-scales controls n)
-               :entries (numerics-zeros (if pattern
-                                            (length (numerics-pattern-rows pattern))
-                                            (* n n)))
+               :pattern pattern
+               :entries (numerics-zeros (length (numerics-pattern-rows pattern)))
                :single (numerics-make-solver n pattern mass)
                :pair (numerics-make-solver n pattern mass :complex t)
                :newton-goal (numerics-newton-goal (numerics-controls-relative controls)))))
     (macrolet ((make (&rest names)
                  `(setf ,@(loop for name in names
-                                append `((,(intern (format nil "NUMERICS-RADAU-RUN-~a" name) :maxima)
-                                          run)
+                                append `((,(numerics-radau-reader name) run)
                                          (numerics-zeros n))))))
+      (setf (numerics-radau-run-about run)
+            (numerics-solver-remark (numerics-radau-run-single run)))
       (make slope ahead weights z1 z2 z3 w1 w2 w3 r1 r2 r3 previous p1 p2 p3 point error))
     run))
 
@@ -99,9 +103,6 @@
   "A change that takes this share of the tolerance ends the iteration. It is less than in radau5.f:
 what is left of it has the same sign for many steps, and adds up in what changes slowly."
   (max (/ 2.2d-17 relative) (min 0.03d0 (expt relative 0.6d0))))
-
-(defun numerics-radau-pattern (problem)
-  (or (numerics-problem-pattern problem) (numerics-full-pattern (numerics-problem-size problem))))
 
 (defun numerics-release-radau (run)
   (numerics-release-solver (numerics-radau-run-single run))

@@ -1,16 +1,17 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; How a run of Radau IIA begins. With a singular mass matrix M of index 1 the combinations n of
-;;; equations with n M = 0 are algebraic, n X(t, x) = 0, and fix x in the directions r with M r = 0:
-;;; Newton's method for x + sum c_k r_k has the matrix (n_i J r_k). A start that satisfies them within
-;;; the tolerance is consistent; another is mended by this iteration where the controls ask for it,
-;;; else it ends the run.
+;;; equations with n M = 0 are algebraic, n X(t, x) = 0, and fix x in the directions r with M r =
+;;; 0: Newton's method for x + sum c_k r_k has the matrix (n_i J r_k). A start that satisfies them
+;;; within the tolerance is consistent; another is mended by this iteration where the controls ask
+;;; for it, else it ends the run.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/null_space"
-                "numerics/problem" "numerics/radau_coefficients" "numerics/radau_run"
-                "numerics/radau_stiffness" "numerics/sparse" "numerics/step_control"))
+  (core-require "numerics/problem" "numerics/step_control" "numerics/sparse"
+                "numerics/null_space" "numerics/linear_solver"
+                "numerics/linear_solver_matrix"
+                "numerics/radau_run" "numerics/radau_stiffness"))
 
 (defun numerics-radau-begin (run)
   "The status in which RUN ends before its first step, or nil."
@@ -81,13 +82,13 @@ they do not fix it."
 
 (defun numerics-radau-algebraic-matrix (run part)
   "The entries n_i J r_k, by columns."
-  (numerics-with-radau (run problem entries r1 r2)
+  (numerics-with-radau (run pattern entries r1 r2)
     (let* ((equations (numerics-algebraic-equations part)) (m (length equations))
            (matrix (numerics-zeros (* m m))) (unit (numerics-zeros 1)) (place -1))
       (setf (aref unit 0) 1d0)
       (dolist (direction (numerics-algebraic-directions part) matrix)
         (numerics-spread (list direction) unit r1)
-        (numerics-multiply (numerics-radau-pattern problem) entries r1 r2)
+        (numerics-multiply pattern entries r1 r2)
         (dolist (equation equations)
           (setf (aref matrix (incf place)) (numerics-combined equation r2)))))))
 
@@ -143,8 +144,8 @@ they do not fix it."
 (defun numerics-radau-say-index (run part)
   (let ((solver (numerics-algebraic-solver part)))
     (setf (numerics-radau-run-about run)
-          (format nil "the algebraic equations do not determine ~a at the start (equation ~d is none ~
-                       for it): the index of the system is higher than 1"
+          (format nil "the algebraic equations do not determine ~a at the start (equation ~d is ~
+                       none for it): the index of the system is higher than 1"
                   (numerics-state-name
                    (numerics-radau-run-problem run)
                    (car (numerics-largest-entry
@@ -157,8 +158,8 @@ they do not fix it."
 (defun numerics-singular-sentence (solver problem)
   "What a person reads of the singular matrix of SOLVER."
   (let ((row (numerics-solver-singular-row solver)))
-    (format nil "the matrix of the implicit method is singular: ~:[~*~;equation ~d and ~]the others ~
-                 do not determine ~a"
+    (format nil "the matrix of the implicit method is singular: ~:[~*~;equation ~d and ~]the ~
+                 others do not determine ~a"
             row (and row (1+ row))
             (numerics-state-name problem (numerics-solver-singular-column solver)))))
 
@@ -192,8 +193,8 @@ there are such."
       t)))
 
 (defun numerics-radau-first-step-with-mass (run trial)
-  "In which the state moves by a hundredth or a scale's thousandth, by the slope that one step TRIAL
-of the linearly implicit Euler method shows; shorter for small tolerances."
+  "In which the state moves by a hundredth or a scale's thousandth, by the slope that one step
+TRIAL of the linearly implicit Euler method shows; shorter for small tolerances."
   (numerics-with-radau (run controls moment before slope scales single r1)
     (let ((left (numerics-time-left controls moment)))
       (replace r1 slope)

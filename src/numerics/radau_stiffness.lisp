@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Whether a problem has ceased to be stiff: 20 accepted steps in turn with step*radius < 1, where
-;;; radius estimates the spectral radius of M^-1 J. It grows out of a few power iterations at each new
-;;; Jacobian, which begin where the last ones ended, and never exceeds a norm of the Jacobian.
+;;; Whether a problem has ceased to be stiff: 20 accepted steps in turn with step*radius < 1,
+;;; where radius estimates the spectral radius of M^-1 J. It grows out of a few power iterations
+;;; at each new Jacobian, which begin where the last ones ended, and never exceeds a norm of the
+;;; Jacobian.
 
 (in-package :maxima)
 
@@ -12,8 +13,8 @@
 (defparameter *numerics-calm-steps* 20)
 
 (defun numerics-radau-watch-stiffness (run)
-  "Makes what the estimate needs, where the controls ask for it; not for a problem with a mass, which
-explicit methods cannot take back."
+  "Makes what the estimate needs, where the controls ask for it; not for a problem with a mass,
+which explicit methods cannot take back."
   (numerics-with-radau (run controls mass before)
     (when (and (eq (numerics-controls-looks-for controls) :end-of-stiffness) (null mass))
       (let ((direction (numerics-zeros (length before))))
@@ -23,9 +24,9 @@ explicit methods cannot take back."
 
 (defun numerics-radau-follow-radius (run)
   "The estimate of the spectral radius of a new Jacobian."
-  (numerics-with-radau (run problem direction entries r1)
+  (numerics-with-radau (run pattern direction entries r1)
     (when direction
-      (let ((pattern (numerics-radau-pattern problem)) (growth 0d0))
+      (let ((growth 0d0))
         (loop repeat *numerics-power-iterations*
               do (numerics-multiply pattern entries direction r1)
                  (incf growth (numerics-normalise r1 direction)))
@@ -34,7 +35,7 @@ explicit methods cannot take back."
                    (* 1.2d0 (exp (/ growth *numerics-power-iterations*)))))))))
 
 (defun numerics-normalise (x out)
-  "X over its length into OUT; the logarithm of the length, or that of almost nothing where it is 0."
+  "X over its length into OUT; the logarithm of the length, of almost nothing where it is 0."
   (declare (type numerics-vector x out))
   (let ((sum 0d0))
     (declare (double-float sum))

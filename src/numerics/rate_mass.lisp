@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_exchange" "algebra/program_nodes" "algebra/program_record"
+  (core-require "algebra/program_exchange" "algebra/program_nodes"
                 "forms/rates" "forms/sparse_elimination" "numerics/mass_rank"))
 
 ;;; Groups.

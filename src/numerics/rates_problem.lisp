@@ -4,14 +4,22 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/colouring"
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes"
+                "algebra/program_record" "numerics/colouring"
                 "numerics/jacobian" "numerics/plan" "numerics/problem" "numerics/program"
                 "numerics/routine"))
 
-(defun numerics-problem-of-program (record names &key angles (jacobian t) (how :auto) (calls 0))
-  "The problem of RECORD, whose states are NAMES; see numerics-problem-of."
-  (numerics-problem-of (numerics-read-program record names)
-                       :angles angles :jacobian jacobian :how how :calls calls))
+(defun numerics-problem-of-program (record names &rest options)
+  "The problem of RECORD, whose states are NAMES, or nil where the record has them as `states'; where
+it has `angles', they are marked. OPTIONS are those of numerics-problem-of."
+  (let* ((names (or names (cdr (algebra-record-part record '$states))))
+         (angles (third (find '$angles (cdr record) :key #'second))))
+    (apply #'numerics-problem-of (numerics-read-program record names)
+           (append options
+                   (list :angles (loop for name in names
+                                       for place from 0
+                                       when (member name (cdr angles) :test #'alike1)
+                                         collect place))))))
 
 (defun numerics-problem-of (program &key angles (jacobian t) (how :auto) (calls 0))
   "ANGLES are places of states. JACOBIAN nil leaves the jacobian for numerics-add-jacobian. HOW is

@@ -18,6 +18,8 @@
 
 (core-option '("auto" "dop853" "radau" "gauss" "dlsode") "method")
 (core-option :truth "stop")
+(core-argument :motion "start")
+(core-argument :interval "time")
 
 (core-rule "run" :any "numerics/run_options" "numerics_wishes" '("method" $auto) '("points" 101)
   '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("step" 0))

@@ -8,10 +8,12 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "numerics/compile" "numerics/machine" "numerics/plan"
-                "numerics/program"))
+  (core-require "numerics/compile" "numerics/machine" "numerics/native" "numerics/plan"))
 
 (defparameter *numerics-calls-worth-compiling* 40000)
+
+(defvar *numerics-compile-seconds* 0d0
+  "The time that all programs took to be made ready, those that were compiled during a run too.")
 
 (defun numerics-routine (program elements &key (how :auto) (calls 0))
   "The function (time x out) that puts the values of ELEMENTS of PROGRAM into OUT. HOW is :machine,
@@ -22,27 +24,32 @@
                       (length elements))
    how calls))
 
+(defun numerics-made (make plan)
+  "What MAKE makes of PLAN; the time counts."
+  (let ((start (numerics-seconds)))
+    (unwind-protect (funcall make plan)
+      (incf *numerics-compile-seconds* (- (numerics-seconds) start)))))
+
 (defun numerics-routine-of-plan (plan how calls)
   "Two functions, (time x out), and (seed out) for plans with seeds."
-  #-sbcl (progn how calls (numerics-machine plan))
+  #-sbcl (progn how calls (numerics-made #'numerics-machine plan))
   #+sbcl
-  (cond ((zerop (numerics-plan-count plan)) (numerics-machine plan))
-        ((or (eq how :compiled)
-             (and (eq how :auto) (>= calls *numerics-calls-worth-compiling*)))
-         (numerics-compiled plan))
-        ((eq how :machine) (numerics-machine plan))
+  (cond ((or (eq how :machine) (not (numerics-compilable-p plan)))
+         (numerics-made #'numerics-machine plan))
+        ((or (eq how :compiled) (>= calls *numerics-calls-worth-compiling*))
+         (numerics-made #'numerics-compiled plan))
         (t (numerics-compiled-later plan))))
 
 #+sbcl
 (defun numerics-compiled-later (plan)
   (let ((calls *numerics-calls-worth-compiling*) (compiled nil))
     (declare (fixnum calls))
-    (multiple-value-bind (first second) (numerics-machine plan)
+    (multiple-value-bind (first second) (numerics-made #'numerics-machine plan)
       (declare (type function first))
       (values
        (lambda (time x out)
-         (when (and (> (decf calls) most-negative-fixnum) (< calls 0) (not compiled))
-           (multiple-value-setq (first second) (numerics-compiled plan))
+         (when (and (< (decf calls) 0) (not compiled))
+           (multiple-value-setq (first second) (numerics-made #'numerics-compiled plan))
            (setq compiled t))
          (funcall first time x out))
        (and second

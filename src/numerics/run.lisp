@@ -11,7 +11,7 @@
                 "algebra/program_nodes" "algebra/program_record" "forms/dynamics"
                 "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/events"
                 "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
-                "numerics/projection" "numerics/rates_problem" "numerics/routine"
+                "numerics/back_to_constraints" "numerics/rates_problem" "numerics/routine"
                 "numerics/run_options"))
 
 (defstruct numerics-simulation

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/nearest" "numerics/observers" "numerics/problem"))
+  (core-require "core/nearest" "numerics/decimals" "numerics/observers" "numerics/problem"))
 
 (core-record numerics-wishes
   "METHOD a symbol; POINTS a number of rows or a list of times; TOLERANCE as typed; EVENTS a list of
@@ -15,16 +15,6 @@ methods with a fixed one, or 0."
   method points tolerance events stop digits step)
 
 ;;; Numbers
-
-(defun numerics-short-number (x)
-  "X to six digits, as a person writes it."
-  (flet ((trimmed (text) (string-right-trim "." (string-right-trim "0" text))))
-    (if (or (= x 0d0) (<= 1d-3 (abs x) 1d6))
-        (trimmed (format nil "~,6f" x))
-        (let* ((text (string-downcase (format nil "~,5e" x)))
-               (place (position-if #'alpha-char-p text)))
-          (concatenate 'string (trimmed (subseq text 0 place)) "e"
-                       (string-left-trim "+" (subseq text (1+ place))))))))
 
 (defun numerics-double (e what)
   "The double-float number next to the Maxima constant E; WHAT it is, for the message."

@@ -6,10 +6,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates" "numerics/events"
-                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/problem"
-                "numerics/projection" "numerics/rate_program" "numerics/run"
-                "numerics/run_options"))
+  (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates"
+                "numerics/decimals" "numerics/events" "numerics/jacobian" "numerics/native"
+                "numerics/observers" "numerics/problem" "numerics/back_to_constraints"
+                "numerics/rate_program" "numerics/run" "numerics/run_options"))
 
 ;;; Methods
 
@@ -103,6 +103,7 @@
                     (:smallest-step "the step became as small as the last place of t: the solution ~
                                      or its right-hand side is singular there")
                     (:no-convergence "the equations of the implicit steps could not be solved")
+                    (:inconsistent "the algebraic equations do not hold there")
                     (:most-steps "the most steps that were allowed are made")
                     (:singular "the matrix of the implicit steps is singular")))))
 

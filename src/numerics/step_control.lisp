@@ -1,14 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What methods with steps of their own choice share: the scales of the norm, the time that is left,
-;;; the smallest step, and the first one. The first step is Hairer's (E. Hairer, S. P. Norsett, G.
-;;; Wanner, Solving Ordinary Differential Equations I, section II.4), made independent of the unit of
-;;; time, and guarded where a start at rest tells little: it grows from a short trial there, and its
-;;; own estimate of the error decides whether it stands.
+;;; What methods with steps of their own choice share: the scales of the norm, the time that is
+;;; left, the smallest step, whether the end can be reached, and the first step. It is Hairer's
+;;; (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, section II.4),
+;;; made independent of the unit of time, and guarded where a start at rest tells little: it grows
+;;; from a short trial there, and its own estimate of the error decides whether it stands.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem"))
+  (core-require "numerics/decimals" "numerics/problem"))
 
 (declaim (inline numerics-scale numerics-time-left numerics-smallest-step))
 
@@ -26,6 +26,12 @@
   (declare (type numerics-vector moment))
   (max 1d-290 (* 1d-31 (abs (aref moment 0)))))
 
+(defun numerics-largest-step (controls moment)
+  "Of a run from MOMENT: what is given, or a tenth of the span, so that nothing is stepped over
+where the motion begins at rest."
+  (or (numerics-controls-largest-step controls)
+      (* 0.1d0 (abs (numerics-time-left controls moment)))))
+
 (defun numerics-full-scales (controls size)
   "The scales of all SIZE states; 1 where the controls have none."
   (let ((scales (numerics-controls-scales controls)))
@@ -40,15 +46,44 @@
     (dotimes (i (length vector)) (incf sum (* 0d0 (aref vector i))))
     (= sum 0d0)))
 
+;;; Whether the end can be reached
+
+(defstruct numerics-pace
+  "Where a run was, and its steps since then."
+  (steps 0 :type fixnum)
+  (moment (numerics-zeros 2) :type (simple-array double-float (*))))
+
+(defparameter *numerics-pace-steps* 10000 "The pace is looked at after so many steps.")
+(defparameter *numerics-hopeless-steps* 1d11 "More steps than this would take days.")
+
+(defun numerics-steps-left (pace controls moment)
+  "The number of steps to the end at the pace of those since the last look."
+  (let* ((left (numerics-time-left controls moment)) (before (numerics-pace-moment pace))
+         (way (+ (- (aref moment 0) (aref before 0)) (- (aref moment 1) (aref before 1)))))
+    (* (numerics-pace-steps pace) (abs (/ left (if (zerop way) (* 1d-99 left) way))))))
+
+(defun numerics-hopeless (pace controls moment)
+  "nil, or a sentence where the end is too many steps away; called once a step."
+  (declare (type numerics-vector moment))
+  (when (>= (incf (numerics-pace-steps pace)) *numerics-pace-steps*)
+    (let ((steps (numerics-steps-left pace controls moment)))
+      (setf (numerics-pace-steps pace) 0)
+      (replace (numerics-pace-moment pace) moment)
+      (when (> steps *numerics-hopeless-steps*)
+        (format nil "at the pace of the last steps the end is ~a steps away"
+                (numerics-short-number steps))))))
+
 ;;; The first step
 
 (defun numerics-scaled-size (difference state scales)
-  "max |d_i|/(|x_i| + s_i)"
+  "max |d_i|/(|x_i| + s_i) over what has a scale; what begins at 0 and counts by its own size alone
+has none."
   (declare (type numerics-vector difference state scales))
   (let ((largest 0d0))
     (dotimes (i (length state) largest)
-      (setq largest (max largest (/ (abs (aref difference i))
-                                    (numerics-scale (aref state i) 0d0 (aref scales i))))))))
+      (unless (= 0d0 (aref state i) (aref scales i))
+        (setq largest (max largest (/ (abs (aref difference i))
+                                      (numerics-scale (aref state i) 0d0 (aref scales i)))))))))
 
 (defun numerics-trial-slope (problem moment state slope step)
   "The slope after STEP along SLOPE, and that step: a shorter one where the slope is not finite."
@@ -94,7 +129,7 @@ x'': at most 100 times the TRIAL that found them."
       (let ((bend (/ (numerics-scaled-size (map 'numerics-vector #'- later slope) state scales)
                      (abs trial))))
         (* (signum left)
-           (min span (or (numerics-controls-largest-step controls) span)
+           (min (numerics-largest-step controls moment)
                 (if (numerics-finite-p bend)
                     (numerics-step-by-order speed bend (abs trial)
                                             (* 0.01d0 (numerics-controls-relative controls)) order)

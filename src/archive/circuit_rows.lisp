@@ -9,8 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/compounds" "archive/keys" "archive/parser" "archive/simplify"
-                "archive/tokens"))
+  (core-require "archive/compounds" "archive/keys" "archive/parser"
+                "archive/plain_simplifier" "archive/tokens"))
 
 (defun archive-row-parser (section)
   "What parses the rows of SECTION, of whatever kind; nil where its entries are keys."

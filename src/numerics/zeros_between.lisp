@@ -12,7 +12,7 @@
   (or (and (> x 0d0) (> y 0d0)) (and (< x 0d0) (< y 0d0))))
 
 (defun numerics-quadratic-share (a b c fa fb fc)
-  "The share of the way from A to B to try next, by a parabola through all three where that is safe."
+  "The share of the way from A to B to try next, by a parabola through all where that is safe."
   (declare (double-float a b c fa fb fc))
   (let ((place (/ (- a b) (- c b))) (value (/ (- fa fb) (- fc fb))))
     (if (and (< (* value value) place) (< (* (- 1 value) (- 1 value)) (- 1 place)))
@@ -21,8 +21,8 @@
         0.5d0)))
 
 (defun numerics-zero-between (function from to tolerance)
-  "The end nearer to TO of a piece, no longer than TOLERANCE, of the way FROM .. TO on which FUNCTION
-leaves the sign that it has at FROM."
+  "The end nearer to TO of a piece, no longer than TOLERANCE, of the way FROM .. TO on which
+FUNCTION leaves the sign that it has at FROM."
   (declare (double-float from to tolerance) (type function function))
   (let* ((a to) (b from) (c from) (first (funcall function from))
          (fa (funcall function to)) (fb first) (fc first) (share 0.5d0))

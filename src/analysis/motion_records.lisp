@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The records of the analysis. A motion is what everything is asked about: the first
-;;; approximation, the structure of forces, stability. It is derived once, in motion.mac.
+;;; approximation, the structure of forces, stability. It is derived once, in given_solution.mac.
 
 (in-package :maxima)
 
@@ -30,3 +30,17 @@ not zero."
   "Routh's function R = a*v^2/2 + b*v + R0 of one coordinate q, v = q': `square' is a, `linear' is
 b, `rest' is R0."
   whole coordinate velocity square linear rest)
+
+(core-record analysis-jacobi-case
+  "A case of Jacobi's rule: expressions that are positive, the number of negative squares, the sign
+of the last minor, what is left of the conditions."
+  positive negative sign conditions)
+
+(core-record analysis-alternative
+  "One of the alternatives that a step of solving leaves: what is found, [x = value] or [];
+conditions, which vanish; what is apart from zero."
+  found conditions (apart '((mlist simp))))
+
+(core-record analysis-root
+  "A root of a polynomial, and what must vanish for it."
+  value (conditions '((mlist simp))))

@@ -9,9 +9,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_derivative" "algebra/program_from_expressions"
+  (core-require "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "circuits/elements"
-                "circuits/laws" "forms/sparse_elimination"))
+                "circuits/element_laws" "forms/sparse_elimination"))
 
 (defstruct circuits-run
   network sign branches ; the branches as a vector, that of number k at k - 1
@@ -20,12 +20,12 @@
   currents voltages)    ; vectors of elements, nil while they are not known
 
 (defun circuits-new-run (network)
-  (let* ((branches (coerce (cdr ($core_get network '$branches)) 'vector))
+  (let* ((branches (coerce (cdr (circuits-network-branches network)) 'vector))
          (count (length branches)))
     (make-circuits-run
-     :network network :sign ($core_get network '$sign) :branches branches
-     :loops (circuits-element-rows ($core_get network '$loops))
-     :cuts (circuits-element-rows ($core_get network '$cuts))
+     :network network :sign (circuits-network-sign network) :branches branches
+     :loops (circuits-element-rows (circuits-network-loops network))
+     :cuts (circuits-element-rows (circuits-network-cuts network))
      :currents (make-array count :initial-element nil)
      :voltages (make-array count :initial-element nil))))
 
@@ -50,7 +50,9 @@
               do (setq place (or (gethash key table)
                                  (setf (gethash key table) (1+ (hash-table-count table))))))))))
 
-(defun circuits-numbers (run key) (cdr ($core_get (circuits-run-network run) key)))
+(defmacro circuits-numbers (run field)
+  "The list under FIELD of the network of RUN."
+  `(cdr (,(intern (format nil "CIRCUITS-NETWORK-~a" field) :maxima) (circuits-run-network ,run))))
 (defun circuits-run-branch (run number) (aref (circuits-run-branches run) (1- number)))
 (defun circuits-loop-row (run number) (aref (circuits-run-loops run) (1- number)))
 (defun circuits-cut-row (run number) (aref (circuits-run-cuts run) (1- number)))
@@ -94,14 +96,14 @@
   (flet ((state (number)
            (algebra-program-input (circuits-branch-state (circuits-run-branch run number))))
          (value (number) (circuits-value run (circuits-run-branch run number))))
-    (dolist (k (circuits-numbers run '$inductors)) (circuits-set-current run k (state k)))
-    (dolist (k (circuits-numbers run '$current_sources)) (circuits-set-current run k (value k)))
-    (dolist (k (circuits-numbers run '$capacitors)) (circuits-set-voltage run k (state k)))
-    (dolist (k (circuits-numbers run '$voltage_sources))
+    (dolist (k (circuits-numbers run inductors)) (circuits-set-current run k (state k)))
+    (dolist (k (circuits-numbers run current_sources)) (circuits-set-current run k (value k)))
+    (dolist (k (circuits-numbers run capacitors)) (circuits-set-voltage run k (state k)))
+    (dolist (k (circuits-numbers run voltage_sources))
       (circuits-set-voltage run k (algebra-program-multiply (circuits-run-sign run) (value k)))))
-  (dolist (k (circuits-numbers run '$dependent_inductors))
+  (dolist (k (circuits-numbers run dependent_inductors))
     (circuits-set-current run k (circuits-set-known run k (circuits-through-cut run k))))
-  (dolist (k (circuits-numbers run '$dependent_capacitors))
+  (dolist (k (circuits-numbers run dependent_capacitors))
     (circuits-set-voltage run k (circuits-set-known run k (circuits-along-loop run k)))))
 
 (defun circuits-set-known (run number element)
@@ -111,7 +113,7 @@
 
 (defun circuits-law-element (run branch argument)
   "The law of BRANCH, a function's name, at the element ARGUMENT."
-  (let* ((laws ($core_get (circuits-run-network run) '$laws))
+  (let* ((laws (circuits-network-laws (circuits-run-network run)))
          (x (mfuncall '$circuits_dummy laws))
          (known (make-hash-table :test #'eq)))
     (setf (gethash x known) argument)
@@ -121,7 +123,7 @@
 
 (defun circuits-set-resistors (run)
   "Resistors of the tree by their currents, linear ones in meshes, the others by their voltages."
-  (dolist (k (circuits-numbers run '$tree_resistors))
+  (dolist (k (circuits-numbers run tree_resistors))
     (let ((branch (circuits-run-branch run k))
           (current (circuits-set-current run k (circuits-through-cut run k))))
       (circuits-set-voltage run k
@@ -129,7 +131,7 @@
                                 (algebra-program-multiply (circuits-value run branch) current)
                                 (circuits-law-element run branch current)))))
   (circuits-set-meshes run)
-  (dolist (k (append (circuits-numbers run '$link_resistors) (circuits-numbers run '$mesh_links)))
+  (dolist (k (append (circuits-numbers run link_resistors) (circuits-numbers run mesh_links)))
     (let ((branch (circuits-run-branch run k))
           (voltage (circuits-set-voltage run k (circuits-along-loop run k))))
       (circuits-set-current run k
@@ -141,7 +143,7 @@
 ;;;     w_t/R_t + sum over the links of its cut of K_lt (K w)_l/R_l = what is known.
 
 (defun circuits-set-meshes (run)
-  (let ((numbers (circuits-numbers run '$mesh_tree)))
+  (let ((numbers (circuits-numbers run mesh_tree)))
     (when numbers
       (loop for k in numbers
             for voltage in (circuits-mesh-voltages run numbers)
