@@ -174,13 +174,18 @@
                  unless (and next (= (first row) (first next)))
                    collect (apply #'algebra-list row)))))
 
+(defun numerics-mass-wanted (wishes)
+  "How far M is divided out: Radau's method takes it as it is."
+  (if (eq (numerics-wishes-method wishes) '$radau) nil :regular))
+
 ;;; For Maxima.
 
 (defun $numerics_simulate (rates values start span wishes)
   "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say."
   (with-algebra-program
     (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
-           (rates (numerics-with-quadratures (numerics-run-rates rates pairs nil) start))
+           (rates (numerics-with-quadratures
+                   (numerics-run-rates rates pairs (numerics-mass-wanted wishes)) start))
            (run (numerics-new-run rates pairs (numerics-start-values rates start values) span
                                   wishes))
            (stop (numerics-carry-out run)))
