@@ -89,22 +89,13 @@ of numbers, whole powers, roots of their own; the rest under one root, and that 
     (list numbers outside apart inside
           (and (not (integerp inside)) (power inside (list '(rat simp) 1 degree))))))
 
-;;; The same roots come again and again in the conditions of a system: plans are kept while the
-;;; facts are the same.
-
-(defparameter *algebra-kept-plans* 500)
-(defvar *algebra-root-plans* (make-hash-table :test #'equal)
-  "(degree roots-apart size . base) -> plan")
-(defvar *algebra-plans-facts* '() "The facts under which the plans were made.")
+(defvar *algebra-root-plans* (make-algebra-memory)
+  "Plans: the same roots come again and again in the conditions of a system.")
 
 (defun algebra-root-plan (base degree)
-  (let ((facts (core-facts)) (key (list* degree *algebra-roots-apart* (algebra-size base) base)))
-    (when (or (not (equal facts *algebra-plans-facts*))
-              (>= (hash-table-count *algebra-root-plans*) *algebra-kept-plans*))
-      (clrhash *algebra-root-plans*)
-      (setq *algebra-plans-facts* facts))
-    (or (gethash key *algebra-root-plans*)
-        (setf (gethash key *algebra-root-plans*) (algebra-new-root-plan base degree)))))
+  (algebra-remembered *algebra-root-plans*
+                      (list* degree *algebra-roots-apart* (algebra-size base) base)
+                      (lambda () (algebra-new-root-plan base degree))))
 
 (defun algebra-whole-powers (power degree)
   "In the zero test nothing stays below the line of a radicand."
