@@ -133,8 +133,12 @@ of numbers, whole powers, roots of their own; the rest under one root, and that 
   (algebra-find-or-make-root expression 2 (lambda () (list '^ (funcall scan (cadr expression)) 2))))
 
 (defun algebra-root-kernel (radicand degree scan)
-  (algebra-find-or-make-root (power radicand (list '(rat simp) 1 degree)) degree
-                             (lambda () (funcall scan radicand))))
+  "The kernel, or the skeleton of a root that Maxima takes apart, sqrt(x*y) where x is positive: it
+must not stand beside sqrt(x) as something of its own."
+  (let ((root (power radicand (list '(rat simp) 1 degree))))
+    (if (mtimesp root)
+        (funcall scan root)
+        (algebra-find-or-make-root root degree (lambda () (funcall scan radicand))))))
 
 (defun algebra-find-or-make-root (expression degree radicand)
   (or (algebra-find-opaque expression)
