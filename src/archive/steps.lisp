@@ -322,8 +322,15 @@ where there is only one."
   "What file_search found is not the user's to write in, unless he says so."
   (or (archive-option call "result" nil) (not (archive-found (archive-call-archive call)))))
 
+(defun archive-saves-p (call)
+  "Whether new steps are written to a file."
+  (let ((archive (archive-call-archive call)))
+    (and archive
+         (or (archive-path archive) (archive-option call "result" nil))
+         (archive-option call "save" (archive-save-default call)))))
+
 (defun archive-save-steps (call)
   "Writes the sections of all steps computed in this call, unless save = false."
-  (when (and (archive-call-new call) (archive-option call "save" (archive-save-default call)))
+  (when (and (archive-call-new call) (archive-saves-p call))
     (archive-save (archive-call-archive call) (reverse (archive-call-new call))
                   (archive-option call "result" nil))))
