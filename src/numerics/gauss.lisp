@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/run_options" "numerics/step_control"
+  (core-require "numerics/decimals" "numerics/problem" "numerics/step_control"
                 "numerics/gauss_stages" "numerics/gauss_first_step" "numerics/gauss_dense"))
 
 (defun numerics-gauss (problem controls moment state observer &key order)

@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/conditioning" "numerics/dlsode" "numerics/problem" "numerics/radau"
-                "numerics/run_options" "numerics/step_control" "numerics/taylor"))
+  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode" "numerics/problem" "numerics/radau"
+                "numerics/step_control" "numerics/taylor"))
 
 (defstruct numerics-reference
   state  ; the end, double-float numbers; nil where nothing could be had

@@ -11,8 +11,7 @@
                 "numerics/taylor_numbers" "numerics/taylor_expansion" "numerics/taylor_run"))
 
 (defstruct (numerics-taylor-outcome (:include numerics-outcome))
-  rows       ; lists (time . states) of bigfloats
-  agreement) ; the digits to which two runs agree
+  rows) ; lists (time . states) of bigfloats
 
 (defun numerics-taylor (program start times digits &key scales (most-steps 1000000))
   "The states of PROGRAM, a numerics-program, at TIMES to DIGITS digits of |x_i| + s_i, SCALES being
@@ -84,7 +83,6 @@ ended differently."
                  (lambda (x) (numerics-double-of-fixed x (numerics-taylor-bits newer)))
                  (numerics-taylor-run-states newer))
      :rows (and agreed (numerics-taylor-bigfloat-rows newer times digits))
-     :agreement agreement
      :about (if status
                 (numerics-taylor-run-about newer)
                 (numerics-taylor-words older newer agreement)))))
