@@ -37,6 +37,8 @@
            (+ seconds (* 1d-6 microseconds)))
   #-sbcl (/ (get-internal-real-time) (coerce internal-time-units-per-second 'double-float)))
 
+(defun $numerics_seconds () (numerics-seconds))
+
 ;;; Libraries of C. Names have no folder: the system looks where its libraries are.
 
 (defun numerics-load-library (names)

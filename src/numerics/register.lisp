@@ -31,5 +31,6 @@
   :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "step" "rayleigh"
              "forces" "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
-(core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "rates" *numerics-values*
-  "start" "time" "run")
+(core-rule "derivation_began" :any "numerics/native" "numerics_seconds")
+(core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"
+  *numerics-values* "start" "time" "run")
