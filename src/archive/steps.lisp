@@ -287,7 +287,9 @@ first: those that its section states, else the archive's."
   (when (eq (archive-option call "verbose" nil) t)
     (core-note "~a took ~,3f s~@[; ~{~a~^; ~}~]" name
                (/ (- (get-internal-real-time) began) (float internal-time-units-per-second 1d0))
-               (archive-derived-left-out derived))))
+               (archive-derived-left-out derived))
+    (loop for (key . value) in (reverse (archive-derived-report derived))
+          do (core-note "~a: ~a" key (archive-spell value)))))
 
 (defun archive-form-taken (call rule derived)
   "The form of what RULE gave, as text: the one asked for, or that to which the derivation came; nil

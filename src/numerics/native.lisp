@@ -38,6 +38,8 @@
            (+ seconds (* 1d-6 microseconds)))
   #-sbcl (/ (get-internal-real-time) (coerce internal-time-units-per-second 'double-float)))
 
+(defun $numerics_seconds () (numerics-seconds))
+
 ;;; What the person interrupts (Ctrl-C) ends here.
 
 (defmacro numerics-interruptible (&body body)
