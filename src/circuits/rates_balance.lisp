@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "circuits/elements"
+  (core-require "algebra/program_nodes" "circuits/elements"
                 "circuits/rates_by_branches" "circuits/rates_judge" "forms/agreement"
                 "forms/dynamics" "forms/fixed" "forms/judge" "forms/program_judge"
                 "forms/rates_integrals" "forms/value"))

@@ -8,10 +8,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_derivative" "algebra/program_exchange"
+  (core-require "algebra/program_derivative"
                 "algebra/program_from_expressions" "algebra/program_nodes" "forms/dynamics"
-                "forms/equations_as_program" "forms/judge" "forms/momenta_judge" "forms/program_judge"
-                "forms/rates" "forms/rates_integrals" "forms/rates_of_motion" "forms/value"))
+                "forms/equations_as_program" "forms/fixed" "forms/judge" "forms/momenta_judge"
+                "forms/program_judge" "forms/rates" "forms/rates_integrals"
+                "forms/rates_of_motion" "forms/value"))
 
 ;;; Elements with other elements for some inputs.
 

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/rates"
+  (core-require "algebra/program_nodes" "forms/rates"
                 "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program"
                 "numerics/rate_program" "numerics/routine" "numerics/run" "numerics/run_options"))
 
