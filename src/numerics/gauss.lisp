@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Gauss-Legendre collocation with a fixed step, for conservative systems over long spans: of order
-;;; 2s with s stages, symplectic and symmetric (Hairer, Lubich, Wanner, Geometric Numerical
+;;; Gauss-Legendre collocation with a fixed step, for conservative systems over long spans: of
+;;; order 2s with s stages, symplectic and symmetric (Hairer, Lubich, Wanner, Geometric Numerical
 ;;; Integration, VIII.6; Hairer, McLachlan, Razakarivony, Achieving Brouwer's law with implicit
-;;; Runge-Kutta methods, BIT 48, 2008). The step is that of the controls, else one that the tolerance
-;;; allows along the first part of the run; the last one ends at the end of the controls.
+;;; Runge-Kutta methods, BIT 48, 2008). The step is that of the controls, else one that the
+;;; tolerance allows along the first part of the run; the last one ends at the end of the controls.
 
 (in-package :maxima)
 

@@ -47,7 +47,8 @@
 (defun numerics-legendre-polynomial (stages)
   "Legendre's polynomial on [0, 1] of degree STAGES, up to a sign."
   (flet ((choose (n k)
-           (let ((product 1)) (dotimes (i k product) (setq product (/ (* product (- n i)) (1+ i)))))))
+           (let ((product 1))
+             (dotimes (i k product) (setq product (/ (* product (- n i)) (1+ i)))))))
     (loop for k from 0 to stages
           collect (* (if (oddp k) -1 1) (choose stages k) (choose (+ stages k) k)))))
 
@@ -91,7 +92,7 @@ are computed in whole numbers, multiples of the common part of all."
   (weights (numerics-zeros 0) :type (simple-array double-float (*)))
   (quotients (numerics-zeros 0) :type (simple-array double-float (*))) ; a_ij/b_j, row by row
   memories  ; vector: [k] foretells the stages from those of the last k steps, [0] is not used
-  shares)   ; vector: [k] foretells the stages of the first k/stages of a step from those of the step
+  shares)   ; vector: [k] foretells the stages of the first k/stages of a step from those of it
 
 (defun numerics-vector-of (rows)
   (let ((numbers (apply #'append rows)))
