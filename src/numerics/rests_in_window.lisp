@@ -209,22 +209,21 @@
                           (apply #'numerics-slopes-at plane
                                  (mapcar #'numerics-at-place (numerics-plane-axes plane) place)))
         append (loop for direction in directions
-                     for problem in (list (numerics-plane-forwards plane)
-                                          (numerics-plane-backwards plane))
-                     append (loop for sign in '(1d-3 -1d-3)
-                                  for curve = (numerics-separatrix plane problem place direction
-                                                                   sign places)
+                     for sense in '(1d0 -1d0)
+                     append (loop for size in '(1d-3 -1d-3)
+                                  for start = (mapcar (lambda (u du) (+ u (* size du))) place
+                                                      direction)
+                                  for curve = (numerics-separatrix plane sense place start places)
                                   when curve collect curve))))
 
-(defun numerics-separatrix (plane problem place direction size places)
-  "The curve of PROBLEM from PLACE, a saddle, along DIRECTION, which SIZE makes small."
-  (let* ((start (mapcar (lambda (u du) (+ u (* size du))) place direction))
-         (trace (and (numerics-inside-p start *numerics-curve-margin*)
-                     (numerics-trace-from plane problem start places))))
+(defun numerics-separatrix (plane sense place start places)
+  "The curve from the saddle at PLACE through START, backwards in time where SENSE is -1."
+  (let ((trace (and (numerics-inside-p start *numerics-curve-margin*)
+                    (numerics-trace-from plane sense start places (numerics-new-visits)))))
     (when (and trace (numerics-trace-points trace))
       (let ((points (list* place start (reverse (numerics-trace-points trace)))))
         (make-numerics-curve
-         :points (if (eq problem (numerics-plane-forwards plane)) points (reverse points))
+         :points (if (plusp sense) points (reverse points))
          :arrows (list (numerics-arrow-at plane (numerics-middle points))))))))
 
 (defun numerics-middle (points)

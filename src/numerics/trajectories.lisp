@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Trajectories that fill a window: from the middle of each cell of a net that none has come to yet,
-;;; forwards and backwards in time, to where they leave the window, close, come to rest or have wound
-;;; long enough; inside masked traps. Places are in units of the window, from 0 to 1 along each axis; a curve is a list of
-;;; places (u v), close enough to look smooth. Look first at numerics-fill-window.
+;;; Trajectories that fill a window, inside masked traps: from seeds far from all others, forwards and
+;;; backwards in time, to where they leave the window, close, come to rest or wind on themselves.
+;;; Places are in units of the window, from 0 to 1 along each axis; a curve is a list of places (u v),
+;;; close enough to look smooth. Look first at numerics-fill-window.
 
 (in-package :maxima)
 
@@ -14,17 +14,19 @@
 (defparameter *numerics-curve-margin* 0.02d0 "How far beyond the window a curve goes.")
 (defparameter *numerics-curve-steps* 20000)
 (defparameter *numerics-near* 2d-4 "Curves that come closer to their start are closed.")
+(defparameter *numerics-crowded* 8d-3 "Curves that wind closer on themselves end there.")
 (defparameter *numerics-at-rest* 8d-3 "Curves that come closer to an equilibrium end there.")
 
 (defstruct numerics-curve
   points              ; ((u v) ..) in the direction of time
-  arrows              ; ((u v du dv) ..): places and directions
-  closed)
+  arrows)             ; ((u v du dv) ..): places and directions
 
 ;;; One direction. A trace looks on while a method steps.
 
 (defstruct numerics-trace
   axes rests
+  visits                    ; cell -> (sense length du dv) of the curve where it came there
+  (sense 1d0)               ; -1 backwards in time
   start                     ; (u v)
   last                      ; the last place that was seen
   (points '())              ; those that are kept, newest first
@@ -62,7 +64,24 @@
               (some (lambda (rest) (< (numerics-distance rest to) *numerics-at-rest*))
                     (numerics-trace-rests trace)))
          :rest)
+        ((numerics-crowded-p trace from to) :crowded)
         ((> (numerics-trace-length trace) *numerics-curve-length*) :long)))
+
+(defun numerics-crowded-p (trace from to)
+  "Whether the curve of TRACE has been near TO before, in the same direction; notes that it is there."
+  (when (> (numerics-trace-length trace) (* 3 *numerics-crowded*))
+    (let* ((cell (mapcar (lambda (u) (floor u *numerics-crowded*)) to))
+           (du (* (numerics-trace-sense trace) (- (first to) (first from))))
+           (dv (* (numerics-trace-sense trace) (- (second to) (second from))))
+           (before (gethash cell (numerics-trace-visits trace))))
+      (if before
+          (destructuring-bind (sense length eu ev) before
+            (and (or (/= sense (numerics-trace-sense trace))
+                     (> (- (numerics-trace-length trace) length) (* 6 *numerics-crowded*)))
+                 (> (+ (* du eu) (* dv ev)) 0d0)))
+          (progn (setf (gethash cell (numerics-trace-visits trace))
+                       (list (numerics-trace-sense trace) (numerics-trace-length trace) du dv))
+                 nil)))))
 
 (defun numerics-see-place (trace place)
   "TRACE has come to PLACE; why it ends there, or nil."
@@ -106,17 +125,20 @@
    :end (/ 1d6 speed) :most-steps *numerics-curve-steps*
    :scales (map 'numerics-vector #'numerics-axis-width (numerics-plane-axes plane))))
 
-(defun numerics-trace-from (plane problem place rests)
-  "The trace of PROBLEM, one of the two of PLANE, from PLACE; nil where that stands still."
-  (let* ((axes (numerics-plane-axes plane))
-         (state (map 'numerics-vector #'numerics-at-place axes place))
-         (speed (numerics-speed plane place))
-         (trace (make-numerics-trace :axes axes :rests rests :start place :last place
-                                     :looked place))
+(defun numerics-trace-from (plane sense place rests visits)
+  "The trace in PLANE from PLACE, forwards in time or, where SENSE is -1, backwards; nil where that
+stands still."
+  (let* ((axes (numerics-plane-axes plane)) (speed (numerics-speed plane place))
+         (trace (make-numerics-trace :axes axes :rests rests :start place :last place :looked place
+                                     :visits visits :sense sense))
          (scratch (numerics-zeros 2)))
     (when (and (numerics-finite-p speed) (> speed 0d0) (numerics-finite-p (/ 1d6 speed)))
-      (numerics-automatic problem (numerics-curve-controls plane speed) (numerics-moment 0d0)
-                          state (lambda (step) (numerics-see-trace trace step scratch)))
+      (numerics-automatic (if (plusp sense)
+                              (numerics-plane-forwards plane)
+                              (numerics-plane-backwards plane))
+                          (numerics-curve-controls plane speed) (numerics-moment 0d0)
+                          (map 'numerics-vector #'numerics-at-place axes place)
+                          (lambda (step) (numerics-see-trace trace step scratch)))
       trace)))
 
 (defun numerics-speed (plane place)
@@ -129,17 +151,18 @@
 
 ;;; Both directions
 
+(defun numerics-new-visits () (make-hash-table :test #'equal))
+
 (defun numerics-curve-through (plane place rests)
   "The curve through PLACE, or nil."
-  (let ((forwards (numerics-trace-from plane (numerics-plane-forwards plane) place rests)))
+  (let* ((visits (numerics-new-visits))
+         (forwards (numerics-trace-from plane 1d0 place rests visits)))
     (when forwards
-      (let* ((closed (eq (numerics-trace-end forwards) :closed))
-             (backwards (unless closed
-                          (numerics-trace-from plane (numerics-plane-backwards plane) place rests))))
+      (let ((backwards (unless (eq (numerics-trace-end forwards) :closed)
+                         (numerics-trace-from plane -1d0 place rests visits))))
         (make-numerics-curve
          :points (append (and backwards (numerics-trace-points backwards)) (list place)
                          (reverse (numerics-trace-points forwards)))
-         :closed closed
          :arrows (list (numerics-arrow-at plane place)))))))
 
 (defun numerics-arrow-at (plane place)
