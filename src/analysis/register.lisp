@@ -22,6 +22,9 @@
 (defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
 (defparameter *analysis-variables* (list "variables" *analysis-none*))
 
+(defparameter *analysis-functions* (list "functions_derived" *analysis-none*)
+  "What equations are derivatives of.")
+
 ;;; Arguments. K is a function, and a matrix where forces are given by theirs.
 
 (core-argument :formula "K" "polynomial")
@@ -66,10 +69,13 @@
 (core-public "Equilibria"
   :forms '(("equations" "equations" "variables")) :options '("unknowns" "where")
   :kinds *analysis-kinds*)
-(core-rule "Equilibria" *analysis-states* "analysis/equilibria" "analysis_equilibria"
+(core-rule "Equilibria" *analysis-kinds* "analysis/jumps" "analysis_smooth_equilibria"
+  "solutions_at_rest" *analysis-functions* *analysis-laws*)
+(core-rule "solutions_at_rest" *analysis-states* "analysis/equilibria" "analysis_equilibria"
   "state_equations" *analysis-variables* *analysis-unknowns* *analysis-where*
   *analysis-laws*)
-(core-rule "Equilibria" *analysis-motions* "analysis/equilibria" "analysis_equilibria_motion"
+(core-rule "solutions_at_rest" *analysis-motions* "analysis/equilibria"
+  "analysis_equilibria_motion"
   "LagrangeEquations" "coordinates" *analysis-unknowns* *analysis-where*
   *analysis-laws*)
 
@@ -79,15 +85,27 @@
   *analysis-where* *analysis-laws*)
 (core-rule "special_cases_sought" :any "analysis/motion_records" "analysis_special_cases"
   *analysis-where* *analysis-laws* *analysis-unknowns*)
-(core-rule "motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
+(core-rule "named_motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
-(core-rule "motion" *analysis-motions* "analysis/given_solution" "analysis_lagrange_motion"
+(core-rule "named_motion" *analysis-motions* "analysis/given_solution" "analysis_lagrange_motion"
   "LagrangeEquations" "coordinates" "solution" "special_cases")
-(core-rule "routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
+(core-rule "named_routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
   "special_cases")
-(core-rule "hamilton_motion" :any "analysis/first_approximation" "analysis_hamilton_motion"
+(core-rule "named_hamilton_motion" :any "analysis/first_approximation" "analysis_hamilton_motion"
   "HamiltonEquations" "coordinates" "solution" "special_cases")
+(loop for motion in '("motion" "routh_motion" "hamilton_motion")
+      do (core-rule motion *analysis-kinds* "analysis/jumps" "analysis_smooth_motion"
+           (concatenate 'string "named_" motion) *analysis-functions* *analysis-laws*))
+
+(core-rule "functions_derived" *analysis-motions* "analysis/jumps" "analysis_functions_of_motion"
+  "Lagrangian" "actions")
+(core-rule-given "hamiltonian" "functions_derived" '("lagrangian") "analysis/jumps"
+  "analysis_function_alone" "hamiltonian")
+(core-rule "functions_derived" '("poisson") "analysis/jumps" "analysis_function_alone"
+  "hamiltonian")
+(core-rule "functions_derived" '("circuit") "analysis/jumps" "analysis_function_alone"
+  "MixedPotential")
 
 ;;; First approximation and criteria
 

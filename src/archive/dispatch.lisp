@@ -15,7 +15,7 @@
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-place* nil) (*core-warnings* '())
         (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
-        (*core-has-parameters* t)
+        (*core-has-parameters* t) (*core-unsaved* nil)
         (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*)
         (*core-partial* nil) (*core-afterwards* '()))
     (setq arguments (archive-arguments-taken arguments)
@@ -203,7 +203,8 @@ none."
   "The value of the call's target, computed in the guard; new steps are saved, and what the call does
 is done. A TRIAL does not."
   (setq *core-names* (archive-call-names call)
-        *core-has-parameters* (lambda () (archive-has-parameters-p call)))
+        *core-has-parameters* (lambda () (archive-has-parameters-p call))
+        *core-unsaved* (not (archive-saves-p call)))
   (archive-refuse-property-words *core-names*)
   (core-guarded (archive-call-facts call)
                 (lambda ()

@@ -307,7 +307,9 @@ first: those that its section states, else the archive's."
   (when (eq (archive-option call "verbose" nil) t)
     (core-note "~a took ~,3f s~@[; ~{~a~^; ~}~]" name
                (/ (- (get-internal-real-time) began) (float internal-time-units-per-second 1d0))
-               (archive-derived-left-out derived))))
+               (archive-derived-left-out derived))
+    (loop for (key . value) in (reverse (archive-derived-report derived))
+          do (core-note "~a: ~a" key (archive-spell value)))))
 
 (defun archive-form-taken (call rule derived)
   "The form of what RULE gave, as text: the one asked for, or that to which the derivation came; nil
@@ -342,8 +344,15 @@ where there is only one."
   "What file_search found is not the user's to write in, unless he says so."
   (or (archive-option call "result" nil) (not (archive-found (archive-call-archive call)))))
 
+(defun archive-saves-p (call)
+  "Whether new steps are written to a file."
+  (let ((archive (archive-call-archive call)))
+    (and archive
+         (or (archive-path archive) (archive-option call "result" nil))
+         (archive-option call "save" (archive-save-default call)))))
+
 (defun archive-save-steps (call)
   "Writes the sections of all steps computed in this call, unless save = false."
-  (when (and (archive-call-new call) (archive-option call "save" (archive-save-default call)))
+  (when (and (archive-call-new call) (archive-saves-p call))
     (archive-save (archive-call-archive call) (reverse (archive-call-new call))
                   (archive-option call "result" nil))))

@@ -139,6 +139,15 @@ with this sentence."
   (core-report "partial" t)
   (setq *core-partial* (apply #'format nil control arguments)))
 
+(defvar *core-unsaved* nil "Whether nothing is written that would say what was left out.")
+
+(defun $core_left_case (condition)
+  "What was left out is a case, such as \"a = 0\": a call that saves nothing says so."
+  (let ((text (format nil "the case ~a" condition)))
+    (when (and *core-unsaved* (not (member text *core-left-out* :test #'string=)))
+      (core-warn-later "~a is left out" text))
+    ($core_left_out text)))
+
 (defun core-factored () (setq *core-level* '$factored))
 
 (defun $core_factored () (core-factored))

@@ -75,9 +75,9 @@
   "A function in E that has no derivative at POINT, equations; else false."
   (forms-kink-at e (forms-putting (cdr point))))
 
-(defun $forms_jump_at (e point)
-  "A function in E that may jump at POINT, equations; else false."
-  (forms-jump-at e (forms-putting (cdr point))))
+(defun $forms_jump_at (e moving point)
+  "A function in E, in which the names MOVING move, that may jump at POINT, equations; else false."
+  (forms-jump-at e (forms-putting (cdr point)) (cdr moving)))
 
 ;;; Nouns with variables of their own.
 

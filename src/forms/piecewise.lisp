@@ -127,7 +127,8 @@ not decided which branch holds there."
 ;;; Jumps: a derivative taken by a formula says nothing of a function that jumps at the point.
 
 (defparameter *forms-stepping*
-  '($floor $ceiling %round %truncate $mod %kron_delta %hstep $charfun)
+  '($floor $ceiling %round %truncate $mod %kron_delta %hstep $charfun
+    $isqrt $inrt $totient $moebius $divsum $next_prime $prev_prime)
   "Functions that have jumps wherever they move.")
 
 (defun forms-smooth-at-p (e at-point)
@@ -138,10 +139,10 @@ not decided which branch holds there."
       ((%acot %acsch) (member (sign (second e)) '($pos $neg $pn)))
       (t (not (member (caar e) *forms-stepping*))))))
 
-(defun forms-jump-at (e at-point)
-  "A function in E that may jump at the point, or nil."
+(defun forms-jump-at (e at-point moving)
+  "A function in E that may jump at the point, or nil; the names MOVING move."
   (cond ((atom e) nil)
-        ((some (lambda (part) (forms-jump-at part at-point)) (cdr e)))
-        ((and (notevery (lambda (part) (alike1 part (funcall at-point part))) (cdr e))
-              (not (forms-smooth-at-p e at-point)))
+        ((some (lambda (part) (forms-jump-at part at-point moving)) (cdr e)))
+        ((and (not (forms-smooth-at-p e at-point))
+              (some (lambda (name) (some (lambda (part) (among name part)) (cdr e))) moving))
          e)))

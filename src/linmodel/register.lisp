@@ -93,7 +93,7 @@
        "linmodel_hamilton_rates" *linmodel-program-inputs*)
 (core-rule-same-as "rates" '("mechanical") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("mechanical") "hamilton_rates" :given '("function" $hamilton))
-(loop for (name function . more) in '(("rates" "forms_lagrange_rates")
+(loop for (name function . more) in '(("rates" "forms_lagrange_rates" ("integrals" ((mlist simp))))
                                       ("routh_rates" "forms_routh_rates" ("cyclic" $auto) "momenta")
                                       ("hamilton_rates" "forms_hamilton_rates" "momenta"))
       do (apply #'core-rule-given '(:edited "Lagrangian") name '("mechanical")

@@ -233,7 +233,8 @@ no value there is no zero, and it begins anew after that."
   "STEP ends at EVENT, at SHARE of it."
   (let ((between (numerics-step-interpolate step)))
     (setf (numerics-step-interpolate step)
-          (lambda (part out) (funcall between (* part share) out)))
+          (lambda (part out) (funcall between (* part share) out))
+          (numerics-step-nodes step) nil)
     (replace (numerics-step-to step) (numerics-event-moment event))
     (replace (numerics-step-after step) (numerics-event-state event))))
 

@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/step_control" "numerics/gauss_stages"
-                "numerics/gauss_first_step" "numerics/gauss_dense"))
+  (core-require "numerics/decimals" "numerics/problem" "numerics/step_control"
+                "numerics/gauss_stages" "numerics/gauss_first_step" "numerics/gauss_dense"))
 
 (defun numerics-gauss (problem controls moment state observer &key order)
   "Integrates PROBLEM, x' = X(t, x), from STATE at MOMENT; an outcome. ORDER is an even number up to
@@ -21,8 +21,8 @@
     (cond ((realp step)
            (numerics-gauss-set-step run step)
            (let ((status (numerics-gauss-steps run controls moment state observer)))
-             (numerics-gauss-outcome status moment state step)))
-          (t (numerics-gauss-outcome step moment state 0d0)))))
+             (numerics-gauss-outcome status moment state step stages)))
+          (t (numerics-gauss-outcome step moment state 0d0 stages)))))
 
 (defun numerics-gauss-order (controls)
   "The order that reaches the tolerance with the fewest rates, as measured on the double pendulum."
@@ -67,10 +67,12 @@
              (replace (numerics-step-to seen) moment)
              nil))))
 
-(defun numerics-gauss-outcome (status moment state step)
+(defun numerics-gauss-outcome (status moment state step stages)
   (make-numerics-outcome
    :status status :moment moment :state state :step step
    :about (case status
             (:not-finite "the rates have no finite value in a step of Gauss' method")
-            (:no-convergence "the stages of Gauss' method do not converge: the step is too long or \
-the system stiff"))))
+            (:no-convergence
+             "the stages of Gauss' method do not converge: too long a step, or a stiff system")
+            (t (format nil "Gauss' method of order ~d, steps of ~a" (* 2 stages)
+                       (numerics-short-number step))))))

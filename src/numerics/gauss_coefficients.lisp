@@ -82,7 +82,6 @@
 ;;; What a step needs, in double-float numbers.
 
 (defstruct numerics-gauss-table
-  (stages 0 :type fixnum)
   (nodes (numerics-zeros 0) :type (simple-array double-float (*)))
   (weights (numerics-zeros 0) :type (simple-array double-float (*)))
   (quotients (numerics-zeros 0) :type (simple-array double-float (*))) ; a_ij/b_j, row by row
@@ -135,7 +134,6 @@
                                      collect (numerics-vector-of (funcall rows k))))
                      'simple-vector)))
       (make-numerics-gauss-table
-       :stages stages
        :nodes (numerics-vector-of (list nodes))
        :weights (numerics-vector-of (list weights))
        :quotients (numerics-vector-of (numerics-gauss-quotients nodes weights))

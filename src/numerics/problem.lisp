@@ -93,7 +93,9 @@
   (to (numerics-zeros 2) :type (simple-array double-float (*)))
   (before (numerics-zeros 0) :type (simple-array double-float (*))) ; states
   (after (numerics-zeros 0) :type (simple-array double-float (*)))
-  interpolate) ; (share out): the state at from + share*(to - from), 0 <= share <= 1, into OUT
+  interpolate  ; (share out): the state at from + share*(to - from), 0 <= share <= 1, into OUT
+  nodes)       ; nil, or ((share . weight) ..) at which a function of the state is integrated as
+               ; accurately as the method is, by the interpolated states
 
 ;;; How a method ended.
 

@@ -33,7 +33,9 @@
         (make-numerics-step :before (numerics-radau-run-before run)
                             :after (numerics-radau-run-after run)
                             :interpolate (lambda (share out)
-                                           (numerics-radau-between run share out)))))
+                                           (numerics-radau-between run share out))
+                            :nodes (numerics-with-radau-numbers (c1 c2 b1 b2)
+                                     (list (cons c1 b1) (cons c2 b2) (cons 1d0 (/ 9d0)))))))
 
 (defun numerics-radau-between (run share out)
   "The state SHARE of the step after its beginning, by the collocation polynomial, into OUT."

@@ -17,23 +17,25 @@
 ;;; Runs
 
 (core-option '("auto" "dop853" "radau" "gauss" "dlsode") "method")
-(core-option :truth "stop")
+(core-option :truth "stop" "estimate" "conditioning")
 (core-argument :motion "start")
 (core-argument :interval "time")
 
 (core-rule "run" :any "numerics/run_options" "numerics_wishes" '("method" $auto) '("points" 101)
-  '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("step" 0))
+  '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("step" 0)
+  '("estimate" nil) '("conditioning" nil))
 
 (core-public "Simulate"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
            ("equations" "equations" "start" "time"))
   :trailing '("start" "time")
-  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "step" "plot" "file"
-             "replace" "rayleigh" "forces" "constraints" "nonholonomic" "laws" "function" "cyclic"
-             "momenta" "variables")
+  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "step" "integrals"
+             "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces" "constraints"
+             "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
-(core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "rates" *numerics-values*
-  "start" "time" "run")
+(core-rule "derivation_began" :any "numerics/native" "numerics_seconds")
+(core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"
+  *numerics-values* "start" "time" "run")
 
 ;;; Pictures
 
@@ -59,6 +61,7 @@
            ("equations" "equations" "horizontal" "vertical"))
   :trailing '("horizontal" "vertical")
   :options '("values" "start" "file" "replace" "rayleigh" "forces" "constraints" "nonholonomic"
-             "laws" "function" "cyclic" "momenta" "variables"))
+             "laws" "function" "cyclic" "momenta" "variables")
+  :numerical t)
 (core-act "PhasePortrait" nil :any "numerics/phase_portrait" "numerics_phase_portrait" "picture"
   "portrait")

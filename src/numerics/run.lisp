@@ -19,8 +19,13 @@
   (moment (numerics-zeros 2) :type numerics-vector) ; the start
   (state (numerics-zeros 0) :type numerics-vector)
   rows events guards constraints outcome
+  drifts drifting                                   ; those of integrals, and their names
+  untold                                            ; sentences on integrals that are not given
   lost                                              ; (coordinate share) of a pivot that was lost
-  (seconds 0d0))                                    ; of the method alone
+  (began 0d0)                                       ; when the method began
+  (seconds 0d0)                                     ; of the method alone, without compilations
+  (compiled-on-the-way 0d0)                         ; seconds of these
+  (compile-seconds 0d0) (derivation-seconds 0d0))
 
 (defun numerics-name-text (name) (core-words (list name)))
 
@@ -34,13 +39,17 @@
    :guards (loop for (nil pivot . whole) in (forms-rates-guards rates)
                  collect (algebra-program-divide pivot whole))))
 
+(defun numerics-open-names (rates elements)
+  "What has no value in ELEMENTS, as texts."
+  (mapcar #'numerics-name-text
+          (remove-if (lambda (name)
+                       (or (member name '($t $%pi $%e))
+                           (member name (forms-rates-states rates) :test #'alike1)))
+                     (algebra-inputs-of elements))))
+
 (defun numerics-check-names (rates elements)
   "An error where ELEMENTS hold a name without a number."
-  (let ((open (mapcar #'numerics-name-text
-                      (remove-if (lambda (name)
-                                   (or (member name '($t $%pi $%e))
-                                       (member name (forms-rates-states rates) :test #'alike1)))
-                                 (algebra-inputs-of elements)))))
+  (let ((open (numerics-open-names rates elements)))
     (when open
       (core-error "~{~a~^, ~} ha~:[s~;ve~] no value; give parameters = [~a = .., ..] or the key ~
                    values"

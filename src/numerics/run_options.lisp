@@ -11,8 +11,8 @@
 (core-record numerics-wishes
   "METHOD a symbol; POINTS a number of rows or a list of times; TOLERANCE as typed; EVENTS a list of
 expressions, of which the first STOP = true ends the run; DIGITS 0 for double-float numbers; STEP of
-methods with a fixed one, or 0."
-  method points tolerance events stop digits step)
+methods with a fixed one, or 0; ESTIMATE and CONDITIONING: whether these are wanted."
+  method points tolerance events stop digits step estimate conditioning)
 
 ;;; Numbers
 

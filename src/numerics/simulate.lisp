@@ -7,9 +7,11 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates"
-                "numerics/decimals" "numerics/events" "numerics/jacobian" "numerics/native"
-                "numerics/observers" "numerics/problem" "numerics/back_to_constraints"
-                "numerics/rate_program" "numerics/run" "numerics/run_options"))
+                "numerics/decimals" "numerics/drifts" "numerics/events" "numerics/jacobian"
+                "numerics/native" "numerics/observers" "numerics/problem"
+                "numerics/back_to_constraints" "numerics/rate_program" "numerics/routine"
+                "numerics/run" "numerics/run_integrals" "numerics/run_options"
+                "numerics/run_report"))
 
 ;;; Methods
 
@@ -57,6 +59,8 @@
                  (and (numerics-simulation-guards run) (numerics-guard-part run))
                  (and (numerics-simulation-events run)
                       (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
+                 (and (numerics-simulation-drifts run)
+                      (lambda (step) (numerics-see-drifts (numerics-simulation-drifts run) step)))
                  (lambda (step) (numerics-see-rows (numerics-simulation-rows run) step))
                  (numerics-progress-part (numerics-simulation-controls run))))))
 
@@ -64,20 +68,26 @@
   "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
 
 (defun numerics-carry-out (run)
-  "Makes the RUN; the sentence of the stop where its time was up."
+  "Makes the RUN; the sentence of the stop where its time was up or the person interrupted it."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
-         (began (numerics-seconds)) (outcome nil))
+         (began (numerics-seconds)) (compiled *numerics-compile-seconds*) (outcome nil))
+    (setf (numerics-simulation-began run) began)
     (multiple-value-bind (value stop)
         (core-within *numerics-share-of-time*
                      (lambda ()
-                       (numerics-with-masked-traps
-                         (setq outcome (funcall method (numerics-simulation-problem run)
-                                                (numerics-simulation-controls run)
-                                                (copy-seq (numerics-simulation-moment run))
-                                                (copy-seq (numerics-simulation-state run)) observer)))))
-      (declare (ignore value))
-      (setf (numerics-simulation-seconds run) (- (numerics-seconds) began)
-            (numerics-simulation-outcome run) outcome)
+                       (numerics-interruptible
+                         (numerics-with-masked-traps
+                           (setq outcome (funcall method (numerics-simulation-problem run)
+                                                  (numerics-simulation-controls run)
+                                                  (copy-seq (numerics-simulation-moment run))
+                                                  (copy-seq (numerics-simulation-state run))
+                                                  observer))))))
+      (when (eq value :interrupted)
+        (setq stop (format nil "interrupted~@[ at ~a~]" *core-doing*)))
+      (let ((compilation (- *numerics-compile-seconds* compiled)))
+        (setf (numerics-simulation-seconds run) (- (numerics-seconds) began compilation)
+              (numerics-simulation-compiled-on-the-way run) compilation
+              (numerics-simulation-outcome run) outcome))
       (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))
       stop)))
 
@@ -127,26 +137,14 @@
                                  trouble
                                  (numerics-outcome-about (numerics-simulation-outcome run)))))))
 
-(defun numerics-report (run)
-  "What stands beside the rows, as a Maxima list."
-  (let ((counts (numerics-controls-counts (numerics-simulation-controls run)))
-        (outcome (numerics-simulation-outcome run)))
-    (apply #'algebra-list
-           (append
-            (list (algebra-field '$method (numerics-wishes-method (numerics-simulation-wishes run)))
-                  (algebra-field '$tolerance (numerics-controls-relative
-                                              (numerics-simulation-controls run)))
-                  (algebra-field '$steps (numerics-counts-steps counts))
-                  (algebra-field '$rejected (numerics-counts-rejected counts))
-                  (algebra-field '$rates (numerics-counts-rates counts))
-                  (algebra-field '$jacobians (numerics-counts-jacobians counts))
-                  (algebra-field '$factorisations (numerics-counts-factorisations counts))
-                  (algebra-field '$seconds (numerics-simulation-seconds run)))
-            (when (numerics-simulation-constraints run)
-              (list (algebra-field '$residual (numerics-constraints-largest
-                                               (numerics-simulation-constraints run)))))
-            (when (and outcome (numerics-outcome-about outcome))
-              (list (algebra-field '$about (numerics-outcome-about outcome))))))))
+(defun numerics-set-seconds (run began compiled)
+  "The time that the derivation of RUN took since BEGAN, and the compilation of programs when the
+clock of these showed COMPILED."
+  (let ((compilation (- *numerics-compile-seconds* compiled)))
+    (setf (numerics-simulation-compile-seconds run) compilation
+          (numerics-simulation-derivation-seconds run)
+          (- (numerics-simulation-began run) began
+             (- compilation (numerics-simulation-compiled-on-the-way run))))))
 
 (defun numerics-rows-of (rows)
   "ROWS as lists of numbers."
@@ -171,16 +169,26 @@
                  unless (and next (= (first row) (first next)))
                    collect (apply #'algebra-list row)))))
 
+(defun numerics-mass-wanted (wishes)
+  "How far M is divided out: Radau's method takes it as it is."
+  (if (eq (numerics-wishes-method wishes) '$radau) nil :regular))
+
 ;;; For Maxima.
 
-(defun $numerics_simulate (rates values start span wishes)
-  "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say."
+(defun $numerics_simulate (began rates values start span wishes)
+  "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say;
+BEGAN is the time when their derivation began."
   (with-algebra-program
-    (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
-           (rates (numerics-with-quadratures (numerics-run-rates rates pairs nil) start))
+    (let* ((compiled *numerics-compile-seconds*)
+           (pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+           (rates (numerics-with-quadratures
+                   (numerics-run-rates rates pairs (numerics-mass-wanted wishes)) start))
            (run (numerics-new-run rates pairs (numerics-start-values rates start values) span
                                   wishes))
-           (stop (numerics-carry-out run)))
+           (stop (progn (numerics-watch-integrals run) (numerics-carry-out run))))
+      (numerics-set-seconds run began compiled)
       (numerics-tell-end run stop)
-      (core-report "run" (numerics-report run))
+      (numerics-warn-of-drifts run)
+      (core-report "run" (numerics-report run (numerics-status-words run stop
+                                                                     (numerics-trouble run))))
       (numerics-all-rows run))))

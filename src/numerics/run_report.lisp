@@ -1,0 +1,92 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What a run says of itself beside its rows: how it ended, what it cost, how far its integrals drift
+;;; and its constraints are off; and the warning where a drift is out of proportion. See
+;;; numerics-report first.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/decimals"
+                "numerics/drifts" "numerics/problem" "numerics/run" "numerics/run_options"))
+
+(defun numerics-rounded-seconds (seconds)
+  "SECONDS to the microsecond."
+  (numerics-rounded (/ (round (* 1000000 (rational (max 0d0 seconds)))) 1000000)))
+
+(defun numerics-few-digits (x)
+  "X to four digits, as is fit for an error."
+  (if (or (zerop x) (not (numerics-finite-p x)))
+      x
+      (let ((unit (expt 10 (- (floor (log (abs x) 10d0)) 3))))
+        (numerics-rounded (* unit (round (rational x) unit))))))
+
+(defun numerics-status-words (run stop trouble)
+  "How RUN ended: the sentence STOP where its time was up, the phrase TROUBLE where it failed."
+  (cond (stop "its time was up")
+        (trouble trouble)
+        ((eq (numerics-outcome-status (numerics-simulation-outcome run)) :stopped)
+         "stopped by an event")
+        (t "reached the end")))
+
+(defun numerics-report (run status)
+  "What stands beside the rows, as a Maxima list."
+  (apply #'algebra-list
+         (append (numerics-course-fields run status)
+                 (numerics-seconds-fields run)
+                 (numerics-drift-fields run)
+                 (numerics-remark-fields run))))
+
+(defun numerics-course-fields (run status)
+  (let* ((controls (numerics-simulation-controls run)) (counts (numerics-controls-counts controls)))
+    (list (algebra-field '$method (numerics-wishes-method (numerics-simulation-wishes run)))
+          (algebra-field '$tolerance (numerics-controls-relative controls))
+          (algebra-field '$status status)
+          (algebra-field '$steps (numerics-counts-steps counts))
+          (algebra-field '$rejected (+ (numerics-counts-rejected counts)
+                                       (numerics-counts-not-finite counts)))
+          (algebra-field '$rates (numerics-counts-rates counts))
+          (algebra-field '$jacobians (numerics-counts-jacobians counts))
+          (algebra-field '$factorisations (numerics-counts-factorisations counts)))))
+
+(defun numerics-seconds-fields (run)
+  (flet ((seconds (key value) (algebra-field key (numerics-rounded-seconds value))))
+    (list (seconds '$seconds (numerics-simulation-seconds run))
+          (seconds '$derivation_seconds (numerics-simulation-derivation-seconds run))
+          (seconds '$compile_seconds (numerics-simulation-compile-seconds run)))))
+
+(defun numerics-named-drifts (run)
+  "((name . relative drift) ..)"
+  (when (numerics-simulation-drifts run)
+    (mapcar #'cons (numerics-simulation-drifting run)
+            (numerics-relative-drifts (numerics-simulation-drifts run)))))
+
+(defun numerics-drift-fields (run)
+  (append
+   (list (algebra-field '$drifts
+                        (apply #'algebra-list
+                               (loop for (name . drift) in (numerics-named-drifts run)
+                                     collect (algebra-field name (numerics-few-digits drift))))))
+   (when (numerics-simulation-untold run)
+     (list (algebra-field '$untold (apply #'algebra-list (numerics-simulation-untold run)))))
+   (when (numerics-simulation-constraints run)
+     (list (algebra-field '$residual (numerics-few-digits
+                                      (numerics-constraints-largest
+                                       (numerics-simulation-constraints run))))))))
+
+(defun numerics-remark-fields (run)
+  (let ((outcome (numerics-simulation-outcome run)))
+    (when (and outcome (numerics-outcome-about outcome))
+      (list (algebra-field '$about (numerics-outcome-about outcome))))))
+
+;;; A drift that is out of proportion
+
+(defparameter *numerics-worrying-drift* 1000 "So many times the tolerance a drift is worth a line.")
+
+(defun numerics-warn-of-drifts (run)
+  (let ((relative (numerics-controls-relative (numerics-simulation-controls run))))
+    (loop for (name . drift) in (numerics-named-drifts run)
+          do (when (> drift (* *numerics-worrying-drift* relative))
+               (core-warn-later
+                "~a, which is constant, drifts by ~a of its size, at a tolerance of ~a"
+                (numerics-name-text name) (numerics-short-number drift)
+                (numerics-short-number relative))))))

@@ -1,0 +1,127 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Integration by Taylor series in fixed-point numbers to a given accuracy: the order and the step of
+;;; A. Jorba and M. Zou (A software package for the numerical integration of ODEs by means of
+;;; high-order Taylor methods, 2005, section 3): for an error e of a step the order -ln(e)/2 + 1, and
+;;; 1/e^2 of the radius of convergence as the last half of the coefficients show it. A run does not
+;;; know what its rounding costs: see taylor.lisp.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "numerics/taylor_numbers" "numerics/taylor_expansion"))
+
+(defconstant numerics-taylor-guard-bits 32)
+
+(defstruct numerics-taylor-run
+  digits expansion scales
+  moment states  ; where it is, in fixed-point numbers
+  end span       ; |end - begin|
+  left           ; times of rows that are still to come
+  (rows '())     ; lists of states, the last one first
+  (steps 0)
+  status about)
+
+(defun numerics-taylor-order (digits) (max 8 (1+ (ceiling (* digits (log 10d0) 1/2)))))
+
+(defun numerics-new-taylor-run (program start times scales digits)
+  (let ((bits (+ (ceiling (* digits (log 10d0 2))) numerics-taylor-guard-bits)))
+    (flet ((fixed (numbers) (mapcar (lambda (e) (numerics-fixed e bits)) numbers)))
+      (let ((times (fixed times)))
+        (make-numerics-taylor-run
+         :digits digits :scales (fixed scales)
+         :expansion (numerics-expansion-of program bits (numerics-taylor-order digits))
+         :moment (first times) :states (fixed start) :end (car (last times)) :left times
+         :span (abs (- (car (last times)) (first times))))))))
+
+(defun numerics-taylor-run (program start times scales digits most-steps)
+  "The run of PROGRAM from START through TIMES whose steps are exact to DIGITS digits."
+  (let* ((run (numerics-new-taylor-run program start times scales digits))
+         (scale (round (- (numerics-taylor-run-end run) (numerics-taylor-run-moment run)) 100))
+         (fault (catch 'numerics-series-fault
+                  (numerics-taylor-take-rows run 0 1)
+                  (loop while (numerics-taylor-run-left run)
+                        do (when (>= (numerics-taylor-run-steps run) most-steps)
+                             (return (numerics-taylor-ended run :most-steps nil)))
+                           (incf (numerics-taylor-run-steps run))
+                           (setq scale (numerics-taylor-step run scale))))))
+    (when fault (numerics-taylor-ended run :not-finite (format nil "there is ~a" fault)))
+    run))
+
+(defun numerics-taylor-ended (run status about)
+  (setf (numerics-taylor-run-status run) status
+        (numerics-taylor-run-about run) about
+        (numerics-taylor-run-left run) '())
+  nil)
+
+(defun numerics-taylor-bits (run) (numerics-expansion-bits (numerics-taylor-run-expansion run)))
+
+;;; A step.
+
+(defun numerics-taylor-step (run scale)
+  "One step of RUN, whose series have the SCALE; the length of the step."
+  (let* ((expansion (numerics-taylor-run-expansion run)) (bits (numerics-taylor-bits run))
+         (left (- (numerics-taylor-run-end run) (numerics-taylor-run-moment run)))
+         (step (loop for step = (numerics-taylor-fitting-step run scale)
+                     while (< (* 32 (abs step)) (abs scale))
+                     do (setq scale step)
+                     finally (return step))))
+    (cond ((numerics-taylor-too-short-p run step)
+           (numerics-taylor-ended
+            run :smallest-step
+            "the series reach less and less far: the solution does not seem to go on"))
+          (t (when (>= (abs step) (abs left)) (setq step left))
+             (numerics-taylor-take-rows run step scale)
+             (setf (numerics-taylor-run-states run)
+                   (numerics-expansion-states-at expansion (floor (ash step bits) scale)))
+             (incf (numerics-taylor-run-moment run) step)))
+    step))
+
+(defun numerics-taylor-fitting-step (run scale)
+  "Expands with SCALE; the longest step, with its sign, that the series allow."
+  (let ((expansion (numerics-taylor-run-expansion run)))
+    (numerics-expand expansion (numerics-taylor-run-moment run) (numerics-taylor-run-states run)
+                     scale)
+    (numerics-before-corners
+     run (round (* scale (rational (expt 2d0 (- (numerics-taylor-radius run) 3))))))))
+
+(defun numerics-taylor-radius (run)
+  "The binary logarithm of the radius of convergence in units of the scale: the least of
+(|x_i| + s_i)/|c_k| to the power 1/k for the last half of the coefficients c_k of each state."
+  (let* ((expansion (numerics-taylor-run-expansion run)) (order (numerics-expansion-order expansion)))
+    (loop for series in (numerics-expansion-states expansion)
+          for scale in (numerics-taylor-run-scales run)
+          for length = (integer-length (+ (abs (svref series 0)) scale))
+          minimize (loop for k from (floor order 2) to order
+                         minimize (/ (- length (integer-length (svref series k))) (float k 1d0))))))
+
+(defun numerics-before-corners (run step)
+  "STEP, or what of it is free of corners."
+  (let* ((expansion (numerics-taylor-run-expansion run)) (bits (numerics-expansion-bits expansion))
+         (scale (numerics-expansion-scale expansion)))
+    (flet ((free-p (series)
+             (> (abs (svref series 0))
+                (loop with share = (abs (floor (ash step bits) scale))
+                      for power = share then (ash (* power share) (- bits))
+                      for k from 1 below (numerics-expansion-order expansion)
+                      sum (ash (* power (abs (svref series k))) (- bits))))))
+      (loop for (y . x) in (numerics-expansion-corners expansion)
+            do (loop until (or (free-p y) (and x (plusp (svref x 0)) (free-p x)))
+                     do (setq step (round step 2))
+                        (when (numerics-taylor-too-short-p run step)
+                          (numerics-series-fault "a corner of an absolute value or an angle"))))
+      step)))
+
+(defun numerics-taylor-too-short-p (run step)
+  (< (abs step) (ash (numerics-taylor-run-span run) -40)))
+
+(defun numerics-taylor-take-rows (run step scale)
+  "The rows at the times that STEP passes."
+  (let ((bits (numerics-taylor-bits run)) (moment (numerics-taylor-run-moment run)))
+    (loop while (and (numerics-taylor-run-left run)
+                     (<= (abs (- (first (numerics-taylor-run-left run)) moment)) (abs step)))
+          do (let ((way (- (pop (numerics-taylor-run-left run)) moment)))
+               (push (if (zerop way)
+                         (numerics-taylor-run-states run)
+                         (numerics-expansion-states-at (numerics-taylor-run-expansion run)
+                                                       (floor (ash way bits) scale)))
+                     (numerics-taylor-run-rows run))))))
