@@ -91,6 +91,14 @@
 its options choose, and the conditions of those that they do not."
   (archive-walk name (lambda (name) (archive-next-touched call name))))
 
+(defun archive-touched-by (call)
+  "The same for CALL, with what it does at its end."
+  (let ((act (archive-act call)))
+    (append (archive-touched call (core-public-name (archive-call-public call)))
+            (when act
+              (loop for source in (archive-rule-sources act)
+                    append (archive-touched call (archive-input-name source)))))))
+
 (defun archive-next-touched (call name)
   (unless (nth-value 1 (gethash name (archive-call-given call)))
     (let ((rule (archive-rule call name)))
@@ -181,7 +189,7 @@ neglected in a field."
 (defun archive-check-effects (call names)
   "An error for the first of the options NAMES that nothing in this call asks for."
   (when (set-difference names (archive-always-options call) :test #'string=)
-    (let ((touched (archive-touched call (core-public-name (archive-call-public call)))))
+    (let ((touched (archive-touched-by call)))
       (dolist (name names)
         (unless (archive-option-counts-p call name touched)
           (core-error "the option ~a has no effect beside the others; leave it out" name))))))

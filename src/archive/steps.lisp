@@ -20,6 +20,12 @@
   (core-find-rule name (archive-call-kind call)
                   (lambda (condition) (archive-meets-p call condition))))
 
+(defun archive-act (call)
+  "The rule for what CALL does at its end, or nil."
+  (core-find-rule (core-public-name (archive-call-public call)) (archive-call-kind call)
+                  (lambda (condition) (archive-meets-p call condition))
+                  t))
+
 (defun archive-meets-p (call condition)
   "Whether the call or the archive gives the option CONDITION, or (option value) with this value;
 :file: whether the system is a file; (:edited name): whether its result NAME was edited by hand."
@@ -88,6 +94,7 @@
   (append (archive-condition-sources (rule-given rule))
           (cond ((rule-same rule) (list (rule-same rule)))
                 ((rule-record rule) (list (rule-record rule)))
+                ((rule-tried rule) (list (rule-tried rule)))
                 (t (rule-inputs rule)))))
 
 (defun archive-condition-sources (condition)
@@ -208,7 +215,20 @@ as the size of what is neglected, and count in no digest: a formula must not dep
   (cond ((rule-same rule) (values (archive-value call (rule-same rule)) t))
         ((rule-record rule)
          (values (archive-field (archive-value call (rule-record rule)) (rule-field rule)) t))
+        ((rule-tried rule) (values (archive-tried-value call (rule-tried rule)) t))
         (t (values (archive-compute call name rule) t))))
+
+(defparameter *archive-trying-time* 10 "Seconds for what is only tried.")
+
+(defun archive-tried-value (call name)
+  "[value] of the quantity NAME, or the text of the error or stop that ends it."
+  (multiple-value-bind (value text)
+      (core-caught
+       (lambda ()
+         (multiple-value-bind (value stop)
+             (core-within *archive-trying-time* (lambda () (archive-value call name)))
+           (if stop (core-signal stop) value))))
+    (or text (list '(mlist simp) value))))
 
 (defun archive-field (record field)
   "A part of a record by its name, or of a list by its number."

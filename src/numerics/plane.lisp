@@ -1,0 +1,165 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; A plane of two states x, y of a system x' = X(x): the problem of these two alone, forwards and
+;;; backwards in time, in a window. What x' and y' depend on beside x and y is held at a given value;
+;;; the picture is one of the system where that stays as it is, else of a section, and it is said
+;;; which of them move. Look first at $numerics_plane.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions"
+                "algebra/program_nodes" "algebra/program_record" "forms/rates" "numerics/decimals"
+                "numerics/problem" "numerics/program" "numerics/rate_program"
+                "numerics/rates_problem" "numerics/run" "numerics/run_options"))
+
+(defstruct numerics-axis
+  name                            ; the state
+  (low 0d0 :type double-float) (width 1d0 :type double-float)
+  angle)                          ; whether it is known up to whole turns
+
+(defstruct numerics-plane
+  axes                            ; two
+  forwards backwards              ; problems
+  held                            ; ((name . number) ..)
+  moving)                         ; those of the names held that would move
+
+(core-record numerics-window
+  "HORIZONTAL and VERTICAL are [name, low, high] as typed, START equations for what is held."
+  horizontal vertical start)
+
+;;; The window
+
+(defun numerics-read-axis (items rates)
+  (destructuring-bind (name low high) (numerics-items items)
+    (unless (member name (forms-rates-states rates) :test #'alike1)
+      (numerics-refuse-start-name name (forms-rates-states rates)))
+    (let ((from (numerics-double low "an end of an axis"))
+          (to (numerics-double high "an end of an axis")))
+      (unless (< from to)
+        (core-error "the axis of ~a ends at ~a, not after its start ~a; give the smaller number first"
+                    (numerics-name-text name) (core-words (list high)) (core-words (list low))))
+      (make-numerics-axis :name name :low from :width (- to from)
+                          :angle (and (member name (forms-rates-angles rates) :test #'alike1) t)))))
+
+(defun numerics-read-axes (window rates)
+  (let ((axes (list (numerics-read-axis (numerics-window-horizontal window) rates)
+                    (numerics-read-axis (numerics-window-vertical window) rates))))
+    (when (alike1 (numerics-axis-name (first axes)) (numerics-axis-name (second axes)))
+      (core-error "both axes are ~a; take two states"
+                  (numerics-name-text (numerics-axis-name (first axes)))))
+    axes))
+
+(defun numerics-place (axis number)
+  "Where the state NUMBER stands along AXIS: 0 at its low end, 1 at its high one."
+  (declare (double-float number))
+  (/ (- number (numerics-axis-low axis)) (numerics-axis-width axis)))
+
+(defun numerics-at-place (axis place)
+  (declare (double-float place))
+  (+ (numerics-axis-low axis) (* place (numerics-axis-width axis))))
+
+;;; What is held
+
+(defun numerics-other-states (rates names)
+  "The states beside NAMES that their rates depend on, directly."
+  (remove-if-not
+   (lambda (input) (and (member input (forms-rates-states rates) :test #'alike1)
+                        (not (member input names :test #'alike1))))
+   (algebra-inputs-of (numerics-rates-of rates names))))
+
+(defun numerics-rates-of (rates names)
+  "The elements of the rates of NAMES."
+  (loop for name in names
+        collect (nth (position name (forms-rates-states rates) :test #'alike1)
+                     (forms-output-list '$rates (forms-rates-outputs rates)))))
+
+(defun numerics-held-value (name names start values rates)
+  "The exact value at which NAME is held beside the axes NAMES."
+  (let ((given (find name (numerics-items start) :key #'second :test #'alike1))
+        (value (find name (numerics-items values) :key #'second :test #'alike1)))
+    (cond (given (third given))
+          ((and value (member name (forms-rates-momenta rates) :test #'alike1)) (third value))
+          ((and (numerics-items start) (numerics-velocity-p name)) 0)
+          (t (core-error "the rates of ~{~a~^, ~} depend on ~a too; give start = [~:*~a = .., ..], ~
+                          the values of the section that is drawn"
+                         (mapcar #'numerics-name-text names) (numerics-name-text name))))))
+
+(defun numerics-check-held-names (rates start)
+  "An error for a name in START that the system does not have. A start for another form of its
+equations may name velocities and coordinates that are none of the states here."
+  (loop for (nil name) in (numerics-items start)
+        do (unless (or (numerics-velocity-p name)
+                       (member name (append (forms-rates-states rates) (forms-rates-cyclic rates))
+                               :test #'alike1))
+             (numerics-refuse-start-name name (forms-rates-states rates)))))
+
+(defun numerics-held-values (rates names start values)
+  "((name . element) ..) of what is held beside NAMES."
+  (numerics-check-held-names rates start)
+  (loop for name in (numerics-other-states rates names)
+        collect (cons name (numerics-value-element
+                            name (numerics-held-value name names start values rates)))))
+
+;;; The problems
+
+(defun numerics-plane-problem (names elements)
+  (numerics-problem-of (make-numerics-program :algebra *algebra-program* :names names
+                                              :rates elements)))
+
+(defun numerics-refuse-no-plane (rates elements)
+  "An error where there is no picture of ELEMENTS, rates of two states, as a plane."
+  (when (forms-output-list '$velocities (forms-rates-outputs rates))
+    (core-error "the system has constraints, which its states are not free of; choose ~
+                 coordinates that need none"))
+  (when (member '$t (algebra-inputs-of elements))
+    (core-error "the equations contain the time: through a point goes more than one trajectory"))
+  (numerics-check-names rates elements))
+
+(defun $numerics_plane (rates values window)
+  "The plane of WINDOW of RATES with VALUES, equations."
+  (with-algebra-program (numerics-new-plane rates values window)))
+
+(defun numerics-new-plane (rates values window)
+  (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+         (rates (numerics-run-rates rates pairs t))
+         (axes (numerics-read-axes window rates)) (names (mapcar #'numerics-axis-name axes))
+         (held (progn (numerics-refuse-no-plane rates (numerics-rates-of rates names))
+                      (numerics-held-values rates names (numerics-window-start window) values)))
+         (others (mapcar #'car held))
+         (elements (algebra-exchanged (numerics-rates-of rates (append names others))
+                                      (algebra-exchange-by held)))
+         (plane (subseq elements 0 2)))
+    (make-numerics-plane
+     :axes axes
+     :held (loop for (name . element) in held
+                 collect (cons name (first (numerics-constant-doubles (list element)))))
+     :moving (loop for name in others
+                   for element in (nthcdr 2 elements) unless (eql element 0) collect name)
+     :forwards (numerics-plane-problem names plane)
+     :backwards (numerics-plane-problem names (mapcar #'algebra-program-negate plane)))))
+
+;;; Values; inside masked traps
+
+(defun numerics-slope-at (plane x y)
+  "Two values: the rates at (X, Y) in units of the window."
+  (let ((state (numerics-zeros 2)) (out (numerics-zeros 2)))
+    (setf (aref state 0) x (aref state 1) y)
+    (funcall (numerics-problem-rates (numerics-plane-forwards plane)) (numerics-moment 0d0) state
+             out)
+    (values (/ (aref out 0) (numerics-axis-width (first (numerics-plane-axes plane))))
+            (/ (aref out 1) (numerics-axis-width (second (numerics-plane-axes plane)))))))
+
+(defun numerics-slopes-at (plane x y)
+  "The matrix ((a b) (c d)) of the derivatives of the rates at (X, Y), in units of the window."
+  (let* ((problem (numerics-plane-forwards plane)) (pattern (numerics-problem-pattern problem))
+         (starts (numerics-pattern-starts pattern)) (rows (numerics-pattern-rows pattern))
+         (values (numerics-zeros (length rows))) (matrix (list (list 0d0 0d0) (list 0d0 0d0)))
+         (state (numerics-zeros 2)) (axes (numerics-plane-axes plane)))
+    (setf (aref state 0) x (aref state 1) y)
+    (funcall (numerics-problem-jacobian problem) (numerics-moment 0d0) state values)
+    (dotimes (j 2 matrix)
+      (loop for k from (aref starts j) below (aref starts (1+ j))
+            for i = (aref rows k)
+            do (setf (nth j (nth i matrix))
+                     (* (aref values k) (/ (numerics-axis-width (nth j axes))
+                                           (numerics-axis-width (nth i axes)))))))))
