@@ -7,10 +7,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "forms/rates" "numerics/decimals"
-                "numerics/problem" "numerics/program" "numerics/rate_program"
-                "numerics/rates_problem" "numerics/run" "numerics/run_options"))
+  (core-require "algebra/program_exchange"
+                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/problem" "numerics/program"
+                "numerics/rate_program" "numerics/rates_problem" "numerics/run"
+                "numerics/run_options"))
 
 (defstruct numerics-axis
   name                            ; the state

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/plane" "numerics/problem" "numerics/run" "numerics/run_options"
+  (core-require "numerics/plane" "numerics/problem" "numerics/run_options"
                 "numerics/trajectories"))
 
 (defstruct numerics-rest
