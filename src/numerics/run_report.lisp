@@ -28,12 +28,13 @@
          "stopped by an event")
         (t "reached the end")))
 
-(defun numerics-report (run status)
-  "What stands beside the rows, as a Maxima list."
+(defun numerics-report (run status asked)
+  "What stands beside the rows, as a Maxima list; ASKED: fields that were asked for."
   (apply #'algebra-list
          (append (numerics-course-fields run status)
                  (numerics-seconds-fields run)
                  (numerics-drift-fields run)
+                 asked
                  (numerics-remark-fields run))))
 
 (defun numerics-course-fields (run status)
