@@ -61,47 +61,65 @@
   (declare (double-float place))
   (+ (numerics-axis-low axis) (* place (numerics-axis-width axis))))
 
+;;; What the rates truly depend on, at three places: a program may name a state that cancels
+
+(defun numerics-some-places (n)
+  (loop for k from 1 to 3
+        collect (map 'numerics-vector (lambda (i) (+ 0.4d0 (* 0.3d0 (sin (* k i)))))
+                     (loop for i from 1d0 to n collect i))))
+
+(defun numerics-rates-routine (rates names)
+  "The function (moment state out) of the RATES of NAMES."
+  (numerics-routine (make-numerics-program :algebra *algebra-program*
+                                           :names (forms-rates-states rates))
+                    (numerics-rates-of rates names)))
+
+(defun numerics-same-after-p (routine count x place way)
+  "Whether the COUNT values of ROUTINE at X are the same where the state at PLACE is moved on by WAY."
+  (let ((later (copy-seq x)) (here (numerics-zeros count)) (there (numerics-zeros count)))
+    (incf (aref later place) way)
+    (numerics-with-masked-traps
+      (funcall routine (numerics-moment 0d0) x here)
+      (funcall routine (numerics-moment 0d0) later there)
+      (every (lambda (a b) (<= (abs (- a b)) (* 1d-9 (+ 1 (abs a))))) here there))))
+
 ;;; Turns: what stands in sin(x/2) is the same after two of them
 
 (defparameter *numerics-most-turns* 12)
 
 (defun numerics-period-of (rates)
   "The function of a state that gives the number of turns after which all RATES are the same; nil
-where it is not found. They are compared at three places."
-  (let* ((names (forms-rates-states rates)) (n (length names))
-         (routine (numerics-routine (make-numerics-program :algebra *algebra-program* :names names)
-                                    (numerics-rates-of rates names)))
-         (places (loop for k from 1 to 3
-                       collect (map 'numerics-vector (lambda (i) (+ 0.4d0 (* 0.3d0 (sin (* k i)))))
-                                    (loop for i from 1d0 to n collect i)))))
+where it is not found."
+  (let* ((names (forms-rates-states rates)) (n (length names)) (places (numerics-some-places n))
+         (routine (numerics-rates-routine rates names)))
     (lambda (name)
       (let ((place (position name names :test #'alike1)))
         (loop for turns from 1 to *numerics-most-turns*
-              when (every (lambda (x) (numerics-same-after-p routine x place turns)) places)
+              when (every (lambda (x) (numerics-same-after-p routine n x place (* 2 pi turns)))
+                          places)
                 return turns)))))
-
-(defun numerics-same-after-p (routine x place turns)
-  (let ((later (copy-seq x)) (here (numerics-zeros (length x))) (there (numerics-zeros (length x))))
-    (incf (aref later place) (* 2 pi turns))
-    (numerics-with-masked-traps
-      (funcall routine (numerics-moment 0d0) x here)
-      (funcall routine (numerics-moment 0d0) later there)
-      (every (lambda (a b) (<= (abs (- a b)) (* 1d-9 (+ 1 (abs a))))) here there))))
 
 ;;; What is held
 
 (defun numerics-other-states (rates names)
-  "The states beside NAMES that their rates depend on, directly."
-  (remove-if-not
-   (lambda (input) (and (member input (forms-rates-states rates) :test #'alike1)
-                        (not (member input names :test #'alike1))))
-   (algebra-inputs-of (numerics-rates-of rates names))))
+  "The states beside NAMES that their rates name, directly: (name . whether they depend on it)."
+  (let* ((states (forms-rates-states rates)) (routine (numerics-rates-routine rates names))
+         (places (numerics-some-places (length states))))
+    (loop for input in (algebra-inputs-of (numerics-rates-of rates names))
+          for place = (position input states :test #'alike1)
+          when (and place (not (member input names :test #'alike1)))
+            collect (cons input
+                          (notevery (lambda (x) (numerics-same-after-p routine (length names) x place
+                                                                       0.3d0))
+                                    places)))))
 
 (defun numerics-rates-of (rates names)
   "The elements of the rates of NAMES."
   (loop for name in names
         collect (nth (position name (forms-rates-states rates) :test #'alike1)
                      (forms-output-list '$rates (forms-rates-outputs rates)))))
+
+(defparameter *numerics-any-value* '((rat simp) 2 5))
 
 (defun numerics-held-value (name names start values rates)
   "The exact value at which NAME is held beside the axes NAMES."
@@ -124,10 +142,12 @@ equations may name velocities and coordinates that are none of the states here."
              (numerics-refuse-start-name name (forms-rates-states rates)))))
 
 (defun numerics-held-values (rates names start values)
-  "((name . exact value) ..) of what is held beside NAMES."
+  "((name . exact value) ..) of what is held beside NAMES; what cancels has some value."
   (numerics-check-held-names rates start)
-  (loop for name in (numerics-other-states rates names)
-        collect (cons name (numerics-held-value name names start values rates))))
+  (loop for (name . counts) in (numerics-other-states rates names)
+        collect (cons name (if counts
+                               (numerics-held-value name names start values rates)
+                               *numerics-any-value*))))
 
 (defun numerics-held-elements (held)
   (loop for (name . value) in held collect (cons name (numerics-value-element name value))))
@@ -164,9 +184,10 @@ equations may name velocities and coordinates that are none of the states here."
          (plane (subseq elements 0 2)))
     (make-numerics-plane
      :axes axes :alone (null (cddr (forms-rates-states rates)))
-     :held held
-     :moving (loop for name in others
-                   for element in (nthcdr 2 elements) unless (eql element 0) collect name)
+     :held (remove *numerics-any-value* held :key #'cdr)
+     :moving (loop for (name . value) in held
+                   for element in (nthcdr 2 elements)
+                   unless (or (eql element 0) (eq value *numerics-any-value*)) collect name)
      :forwards (numerics-plane-problem names plane)
      :backwards (numerics-plane-problem names (mapcar #'algebra-program-negate plane)))))
 

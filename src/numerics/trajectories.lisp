@@ -9,7 +9,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/automatic" "numerics/plane" "numerics/problem"))
 
-(defparameter *numerics-curve-length* 12d0 "Windows that a trajectory winds through in one direction.")
+(defparameter *numerics-curve-length* 30d0 "Windows that a trajectory winds through in one direction.")
 (defparameter *numerics-curve-spacing* 0.006d0 "Of the points of a curve.")
 (defparameter *numerics-curve-margin* 0.02d0 "How far beyond the window a curve goes.")
 (defparameter *numerics-curve-steps* 20000)
