@@ -89,8 +89,7 @@ put in, pairs (name . element)."
                  :rates rates :values values :wishes wishes :program program
                  :moment (numerics-moment from)
                  :state (numerics-start-vector rates start)
-                 :problem (numerics-problem-of program :angles (numerics-angle-places rates)
-                                                       :jacobian nil))))
+                 :problem (numerics-problem-of program :jacobian nil))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
             (numerics-simulation-constraints run) (numerics-constraints-of rates program))
