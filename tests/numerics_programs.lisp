@@ -371,6 +371,10 @@
                (test-floats (numerics-pattern-starts (numerics-problem-pattern problem)))
                (test-floats (numerics-pattern-rows (numerics-problem-pattern problem))))))
 
+(defmspec $test_product (form)
+  ;; test_product(e): the value of e while no rows of a product become code.
+  (let ((*numerics-most-row-terms* 0)) (meval (second form))))
+
 (defun $test_rows (record names)
   "How many rates are rows of a product, and how many operations stay."
   (let* ((program (numerics-read-program record (cdr names)))
