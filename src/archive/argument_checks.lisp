@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/argument_types" "archive/function_spellings" "archive/groups"
+  (core-require "archive/argument_types" "archive/function_values" "archive/groups"
                 "archive/names" "archive/types"))
 
 (defun archive-map-parts (function value)

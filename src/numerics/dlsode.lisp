@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; dlsode of Maxima's share (ODEPACK by A. C. Hindmarsh, translated from Fortran): Adams' methods and
-;;; backward differences. It is loaded when it is first asked for, and compiled when it is first
+;;; dlsode of Maxima's share (ODEPACK by A. C. Hindmarsh, translated from Fortran): Adams' methods
+;;; and backward differences. It is loaded when it is first asked for, and compiled when it is first
 ;;; loaded on a machine. It hands over displaced vectors, which our rates must not see: what it
 ;;; gives and takes is copied. It makes one step a call, never past the end (itask 5), so that its
 ;;; limit of 500 steps a call does not bind, and is silent meanwhile. See numerics-dlsode first.
@@ -44,7 +44,7 @@
     (handler-case
         (let* ((*standard-output* (make-broadcast-stream)) (*error-output* *standard-output*))
           (handler-bind ((warning #'muffle-warning)) ($load "dlsode")))
-      (error () (core-error "dlsode of Maxima's share cannot be loaded here; take method = radau"))))
+      (error () (core-error "dlsode of Maxima's share cannot be loaded; take method = radau"))))
   (symbol-function (numerics-odepack "DLSODE")))
 
 (defun numerics-dlsode-silently (function)
@@ -82,7 +82,8 @@
 
 (defun numerics-dlsode-rates (run)
   (let ((moment (numerics-dlsode-moment run)) (x (numerics-dlsode-x run))
-        (out (numerics-dlsode-out run)) (counts (numerics-controls-counts (numerics-dlsode-controls run)))
+        (out (numerics-dlsode-out run))
+        (counts (numerics-controls-counts (numerics-dlsode-controls run)))
         (rates (numerics-problem-rates (numerics-dlsode-problem run))))
     (lambda (size-vector time y slopes)
       (declare (ignore size-vector))
