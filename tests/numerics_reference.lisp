@@ -16,19 +16,15 @@
                                  (test-vector start)))
       (test-list (and floor (/ floor numerics-unit-roundoff)) since))))
 
-(defun $test_global_error (name problem span start tolerance exact &rest settings)
-  "[estimate, error, how]"
-  (let* ((controls (test-controls (third span) tolerance settings))
-         (moment (numerics-moment (coerce ($float (second span)) 'double-float)))
-         (state (test-vector start)) (method (reference-method name)))
+(defun $test_error (name problem span start tolerance exact)
+  "The distance of the end from EXACT."
+  (let* ((controls (test-controls (third span) tolerance '())) (state (test-vector start)))
     (numerics-with-masked-traps
-      (let ((outcome (funcall method problem controls moment state (constantly nil))))
-        (multiple-value-bind (estimate how)
-            (numerics-global-error method problem controls moment state outcome)
-          (test-list estimate
-                     (numerics-distance (numerics-outcome-state outcome) (test-vector exact)
-                                        (numerics-full-scales controls (length state)))
-                     how))))))
+      (numerics-distance
+       (numerics-outcome-state
+        (funcall (reference-method name) problem controls
+                 (numerics-moment (coerce ($float (second span)) 'double-float)) state (constantly nil)))
+       (test-vector exact) (numerics-full-scales controls (length state))))))
 
 (defun $test_reference (problem start times &rest more)
   "[states or false, floor, method]; MORE is the greatest number of steps of Taylor series."

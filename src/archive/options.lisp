@@ -9,7 +9,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/argument_types" "archive/call" "archive/groups" "archive/keys"
-                "archive/names" "archive/open" "archive/results" "archive/steps" "archive/types"))
+                "archive/names" "archive/open" "archive/results" "archive/steps" "archive/types"
+                "core/nearest"))
 
 (defun archive-option-name (equation)
   (let ((left (cadr equation)))
@@ -39,9 +40,10 @@
 (defun archive-check-option (option value)
   (let ((type (gethash option *core-options*)))
     (unless (or (null type) (archive-option-fits type value))
-      (core-error "the option ~a is ~a, found ~a" option
+      (core-error "the option ~a is ~a, found ~a~@[; did you mean ~a?~]" option
                   (if (consp type) (core-choice type) (cdr (assoc type *archive-option-phrases*)))
-                  (core-words (list value))))))
+                  (core-words (list value))
+                  (and (consp type) (core-nearest (core-words (list value)) type))))))
 
 (defun archive-check-program-form (call)
   "An error unless there is a program of what is called."

@@ -39,12 +39,12 @@
                      (circuits-current run (circuits-coupling-one coupling))
                      (circuits-current run (circuits-coupling-other coupling))))))))
 
-(defun circuits-stores-p (branch) (member (circuits-branch-type branch) '(|$l| |$c|)))
+(defun circuits-storing-p (branch) (member (circuits-branch-type branch) '(|$l| |$c|)))
 
 (defun circuits-balance-fault (run states)
   (loop for branch across (circuits-run-branches run)
         for label = (core-words (list (circuits-branch-label branch)))
-        do (if (circuits-stores-p branch)
+        do (if (circuits-storing-p branch)
                (when (forms-depends-p (list (circuits-value run branch)) states)
                  (return (format nil "what ~a stores is not L*i^2/2 or C*u^2/2" label)))
                (unless (circuits-flow run branch)
@@ -72,7 +72,7 @@
    (circuits-run-sign run)
    (algebra-program-sum
     (loop for branch across (circuits-run-branches run)
-          unless (circuits-stores-p branch)
+          unless (circuits-storing-p branch)
             collect (destructuring-bind (voltage . current) (circuits-flow run branch)
                       (algebra-program-multiply voltage current))))))
 

@@ -14,7 +14,7 @@
                 "forms/dynamics" "forms/equations_as_program" "forms/fixed" "forms/judge"
                 "forms/momenta_judge" "forms/program_judge" "forms/rates" "forms/value"))
 
-(defstruct forms-integral
+(defstruct forms-conserved
   name value size (power 0) ; elements: see forms-rates; without the power of constraints that move
   weights)                  ; y
 
@@ -56,7 +56,7 @@
                      (first (algebra-program-rates (list function)
                                                    (mapcar #'cons velocities velocities)))
                      function)))
-        (list (make-forms-integral
+        (list (make-forms-conserved
                :name '$energy :value energy :weights velocities
                :size (forms-size-of (list (algebra-program-add energy rest) rest))
                :power (forms-lost-power function velocities
@@ -94,7 +94,7 @@
   (let* ((momentum (nth place (forms-program-terms-momenta terms)))
          (velocities (forms-program-terms-velocities terms))
          (rest (forms-at-rest (list momentum) dynamics)))
-    (make-forms-integral
+    (make-forms-conserved
      :name name :value momentum
      :size (forms-size-of
             (append rest (mapcar #'algebra-program-multiply
@@ -108,12 +108,12 @@
 (defun forms-put-in-integrals (integrals pairs)
   (loop for integral in integrals
         collect (destructuring-bind (value size power . weights)
-                    (forms-put (list* (forms-integral-value integral)
-                                      (forms-integral-size integral)
-                                      (forms-integral-power integral)
-                                      (forms-integral-weights integral))
+                    (forms-put (list* (forms-conserved-value integral)
+                                      (forms-conserved-size integral)
+                                      (forms-conserved-power integral)
+                                      (forms-conserved-weights integral))
                                pairs)
-                  (make-forms-integral :name (forms-integral-name integral) :value value
+                  (make-forms-conserved :name (forms-conserved-name integral) :value value
                                        :size size :power power :weights weights))))
 
 (defun forms-integrals-in-momenta (dynamics names velocities)
@@ -122,15 +122,15 @@
                     (forms-motion-integrals dynamics names)
                     (mapcar #'cons (forms-task-v (forms-dynamics-task dynamics)) velocities))))
     (dolist (integral integrals integrals)
-      (when (member (forms-integral-name integral) names)
-        (setf (forms-integral-value integral)
-              (algebra-program-input (forms-integral-name integral)))))))
+      (when (member (forms-conserved-name integral) names)
+        (setf (forms-conserved-value integral)
+              (algebra-program-input (forms-conserved-name integral)))))))
 
 (defun forms-integrals-of-hamiltonian (function slopes forces names motion)
   "Those of H(q, p), a FUNCTION with SLOPES dH/dq: itself, and momenta."
   (let ((velocities (forms-canonical-motion-velocities motion))
         (rest (first (forms-put (list function) (loop for p in names collect (cons p 0))))))
-    (cons (make-forms-integral
+    (cons (make-forms-conserved
            :name '$energy :value function :weights velocities
            :size (forms-size-of (list (algebra-program-subtract function rest) rest))
            :power (forms-lost-power (algebra-program-negate function) velocities forces))
@@ -140,7 +140,7 @@
                                             (loop for bond in (forms-canonical-motion-bonds motion)
                                                   collect (nth place (forms-bond-row bond))))
                                      (forms-new-point t))
-                  collect (make-forms-integral
+                  collect (make-forms-conserved
                            :name name :value (algebra-program-input name)
                            :size (forms-size-of (list (algebra-program-input name)))
                            :weights (forms-unit-weights place (length names)))))))
@@ -158,10 +158,10 @@ the power of constraints."
                           '((nil)))
                       point))
   (loop for integral in integrals
-        for name = (forms-integral-name integral)
-        collect (list name (forms-integral-value integral) (forms-integral-size integral)
+        for name = (forms-conserved-name integral)
+        collect (list name (forms-conserved-value integral) (forms-conserved-size integral)
                       (if (eq name '$energy)
-                          (algebra-program-add (forms-integral-power integral) pushed)
+                          (algebra-program-add (forms-conserved-power integral) pushed)
                           0))))
 
 (defun forms-integral-pairs (integrals direction left point)
@@ -169,16 +169,16 @@ the power of constraints."
                       (mapcar #'cons (mapcar #'car direction)
                               (forms-program-values (mapcar #'cdr direction) point)))))
     (loop for integral in integrals
-          for value = (forms-integral-value integral)
+          for value = (forms-conserved-value integral)
           collect (cons (first (forms-slopes-along
                                 (list (lambda (point)
                                         (first (forms-program-values (list value) point))))
                                 point rates))
                         (first (forms-program-values
                                 (list (algebra-program-subtract
-                                       (forms-program-product (forms-integral-weights integral)
+                                       (forms-program-product (forms-conserved-weights integral)
                                                               left)
-                                       (forms-integral-power integral)))
+                                       (forms-conserved-power integral)))
                                 point))))))
 
 (defun forms-reactions (multipliers rows n)

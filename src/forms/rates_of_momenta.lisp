@@ -216,7 +216,7 @@ FORCES alone."
   (let ((task (forms-dynamics-task dynamics)))
     (flet ((kept (items) (forms-kept-items items task constant)))
       (forms-checked-integrals
-       (remove-if (lambda (integral) (rassoc (forms-integral-name integral) constant))
+       (remove-if (lambda (integral) (rassoc (forms-conserved-name integral) constant))
                   (forms-put-in-integrals (forms-motion-integrals dynamics names) pairs))
        (mapcar #'cons (append (kept (forms-task-q task)) (kept (forms-task-v task))) elements)
        (forms-reactions multipliers (mapcar #'forms-bond-row (forms-dynamics-bonds dynamics))

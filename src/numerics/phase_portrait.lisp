@@ -143,10 +143,10 @@
   (let ((plane (numerics-portrait-plane portrait)) (rests (numerics-portrait-rests portrait)))
     (algebra-list
      (algebra-field '$equilibria
-                    (apply #'algebra-list (mapcar (lambda (rest) (numerics-rest-record plane rest))
+                    (cons '(mlist simp) (mapcar (lambda (rest) (numerics-rest-record plane rest))
                                                   (numerics-rests-found rests))))
      (algebra-field '$separatrices (length (numerics-portrait-separatrices portrait)))
      (algebra-field '$trajectories (length (numerics-portrait-trajectories portrait)))
-     (algebra-field '$about (apply #'algebra-list (reverse (numerics-rests-about rests))))
+     (algebra-field '$about (cons '(mlist simp) (reverse (numerics-rests-about rests))))
      (algebra-field '$file (numerics-draw picture (numerics-portrait-preamble portrait)
                                           (numerics-portrait-items portrait))))))

@@ -3,27 +3,18 @@
 ;;; runs of which agree, where they reach the end in so many steps (a stiff system is beyond them);
 ;;; else by Radau at a tolerance of 1e-13, whose distance to its run at 1e-12 is the floor below
 ;;; which no error can be judged, and which dlsode, another method, has to confirm.
-;;; And an estimate of the error of one run: its distance to another at a finer tolerance or step.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode" "numerics/problem"
-                "numerics/radau" "numerics/step_control" "numerics/taylor"
-                "numerics/trajectories"))
+                "numerics/radau" "numerics/step_control" "numerics/taylor"))
 
 (defstruct numerics-reference
   state  ; the end, double-float numbers; nil where nothing could be had
   method ; a sentence
   floor  ; error of the state, at most about
   rows)  ; bigfloats, of Taylor series only
-
-(defun numerics-distance (a b scales)
-  "max |a_i - b_i|/(|b_i| + s_i)"
-  (loop for x across a
-        for y across b
-        for scale across scales
-        maximize (/ (abs (- x y)) (numerics-scale y 0d0 scale))))
 
 (defun numerics-reference-of (problem controls start times &key (digits 20) (most-steps 5000))
   "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the
@@ -71,23 +62,3 @@ exact TIMES; the last of these is the end."
                             dlsode at 1e-11~]"
                        (numerics-short-number floor)
                        (and distance (numerics-short-number distance))))))
-
-;;; The error of a run.
-
-(defun numerics-global-error (method problem controls moment state outcome)
-  "Two values: an estimate of the error of OUTCOME, that METHOD gave from STATE at MOMENT, and a
-sentence how it was had. Nil where the other run does not reach the end. A first step that was given
-is halved: it may be the only one."
-  (let* ((relative (numerics-controls-relative controls))
-         (other (max 1d-13 (/ relative 50))) (finer (< other (* 0.2d0 relative)))
-         (step (numerics-controls-first-step controls))
-         (copy (numerics-copied-controls controls (if finer other (* 10 relative))
-                                         (aref (numerics-outcome-moment outcome) 0))))
-    (when step (setf (numerics-controls-first-step copy) (/ step 2)))
-    (let ((second (funcall method problem copy moment state (constantly nil))))
-      (when (eq (numerics-outcome-status second) :end)
-        (values (numerics-distance (numerics-outcome-state outcome) (numerics-outcome-state second)
-                                   (numerics-full-scales controls (length state)))
-                (format nil "~:[at most about the distance to a run at ten times the~;distance to ~
-                             a run at a finer~] tolerance~:[~; and half the step~]"
-                        finer step))))))

@@ -39,6 +39,13 @@ where the motion begins at rest."
         scales
         (make-array size :element-type 'double-float :initial-element 1d0))))
 
+(defun numerics-distance (a b scales)
+  "max |a_i - b_i|/(|b_i| + s_i)"
+  (loop for x across a
+        for y across b
+        for scale across scales
+        maximize (/ (abs (- x y)) (numerics-scale y 0d0 scale))))
+
 (defun numerics-finite-vector-p (vector)
   (declare (type numerics-vector vector) (optimize speed))
   (let ((sum 0d0))
