@@ -29,19 +29,43 @@
 
 ;;; The window
 
+(defparameter *numerics-largest-end* 1d100)
+(defparameter *numerics-narrowest-axis* 1d-9 "In parts of the larger of its ends.")
+(defparameter *numerics-longest-angle* (* 200 pi) "A hundred turns.")
+
+(defun numerics-check-axis (axis ends)
+  "An error where AXIS with ENDS, numbers as typed, cannot be drawn."
+  (let* ((low (numerics-axis-low axis)) (width (numerics-axis-width axis))
+         (largest (max (abs low) (abs (+ low width)))))
+    (unless (plusp width)
+      (core-error "the axis of ~a ends at ~a, not after its start ~a; give the smaller number first"
+                  (numerics-name-text (numerics-axis-name axis)) (core-words (list (second ends)))
+                  (core-words (list (first ends)))))
+    (unless (and (<= largest *numerics-largest-end*)
+                 (>= largest (/ *numerics-largest-end*))
+                 (> width (* *numerics-narrowest-axis* largest)))
+      (core-error "the axis of ~a from ~a to ~a is too ~:[wide~;narrow~] to be drawn"
+                  (numerics-name-text (numerics-axis-name axis))
+                  (core-cut (core-words (list (first ends))))
+                  (core-cut (core-words (list (second ends)))) (<= largest *numerics-largest-end*)))
+    (when (and (numerics-axis-turns axis) (> width *numerics-longest-angle*))
+      (core-error "the axis of the angle ~a goes through more than 100 turns; take a shorter one"
+                  (numerics-name-text (numerics-axis-name axis))))
+    axis))
+
 (defun numerics-read-axis (items rates period)
   "PERIOD tells of a state after how many turns all is the same."
-  (destructuring-bind (name low high) (numerics-items items)
+  (destructuring-bind (name . ends) (numerics-items items)
     (unless (member name (forms-rates-states rates) :test #'alike1)
       (numerics-refuse-start-name name (forms-rates-states rates)))
-    (let ((from (numerics-double low "an end of an axis"))
-          (to (numerics-double high "an end of an axis")))
-      (unless (< from to)
-        (core-error "the axis of ~a ends at ~a, not after its start ~a; give the smaller number first"
-                    (numerics-name-text name) (core-words (list high)) (core-words (list low))))
-      (make-numerics-axis :name name :low from :width (- to from)
-                          :turns (and (member name (forms-rates-angles rates) :test #'alike1)
-                                      (funcall period name))))))
+    (destructuring-bind (from to)
+        (mapcar (lambda (e) (numerics-double e "an end of an axis")) ends)
+      (numerics-check-axis
+       (make-numerics-axis :name name :low from
+                           :width (numerics-with-masked-traps (- to from))
+                           :turns (and (member name (forms-rates-angles rates) :test #'alike1)
+                                       (funcall period name)))
+       ends))))
 
 (defun numerics-read-axes (window rates)
   (let* ((period (numerics-period-of rates))
