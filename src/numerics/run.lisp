@@ -133,7 +133,7 @@ momenta that have one of VALUES, equations, begin with it."
     (make-numerics-controls
      :end end :relative relative :scales scales
      :first-step (let ((step (numerics-wishes-step wishes)))
-                   (unless (eql step 0) (numerics-double step "step_size"))))))
+                   (unless (eql step 0) (numerics-double step "first_step"))))))
 
 (defun numerics-guard-routine (program)
   (when (numerics-program-guards program)

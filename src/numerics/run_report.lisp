@@ -14,13 +14,6 @@
   "SECONDS to the microsecond."
   (numerics-rounded (/ (round (* 1000000 (rational (max 0d0 seconds)))) 1000000)))
 
-(defun numerics-few-digits (x)
-  "X to four digits, as is fit for an error."
-  (if (or (zerop x) (not (numerics-finite-p x)))
-      x
-      (let ((unit (expt 10 (- (floor (log (abs x) 10d0)) 3))))
-        (numerics-rounded (* unit (round (rational x) unit))))))
-
 (defun numerics-status-words (run stop trouble)
   "How RUN ended: the sentence STOP where its time was up, the phrase TROUBLE where it failed."
   (cond (stop "its time was up")
@@ -29,10 +22,11 @@
          "stopped by an event")
         (t "reached the end")))
 
-(defun numerics-report (run status asked)
-  "What stands beside the rows, as a Maxima list; ASKED: fields that were asked for."
+(defun numerics-report (run course asked)
+  "What stands beside the rows, as a Maxima list, first the fields COURSE; ASKED: fields that were
+asked for."
   (cons '(mlist simp)
-         (append (numerics-course-fields run status)
+         (append course
                  (numerics-seconds-fields run)
                  (numerics-drift-fields run)
                  asked
@@ -58,9 +52,9 @@
 
 (defun numerics-named-drifts (run)
   "((name . relative drift) ..)"
-  (when (numerics-simulation-drifts run)
+  (let ((drifts (numerics-simulation-drifts run)))
     (mapcar #'cons (numerics-simulation-drifting run)
-            (numerics-relative-drifts (numerics-simulation-drifts run)))))
+            (if (listp drifts) drifts (numerics-relative-drifts drifts)))))
 
 (defun numerics-drift-fields (run)
   (append
@@ -95,10 +89,17 @@
 
 ;;; A drift that is out of proportion
 
+(defun numerics-accuracy (run)
+  "The relative tolerance of RUN, or what its digits stand for."
+  (let ((digits (numerics-wishes-digits (numerics-simulation-wishes run))))
+    (if (plusp digits)
+        (numerics-rounded (expt 10 (- digits)))
+        (numerics-controls-relative (numerics-simulation-controls run)))))
+
 (defparameter *numerics-worrying-drift* 1000 "So many times the tolerance a drift is worth a line.")
 
 (defun numerics-warn-of-drifts (run)
-  (let ((relative (numerics-controls-relative (numerics-simulation-controls run))))
+  (let ((relative (numerics-accuracy run)))
     (loop for (name . drift) in (numerics-named-drifts run)
           do (when (> drift (* *numerics-worrying-drift* relative))
                (core-warn-later

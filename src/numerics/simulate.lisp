@@ -39,7 +39,10 @@
          (asked (unless (or stop trouble) (numerics-asked-fields run))))
     (numerics-tell-end run stop trouble)
     (numerics-warn-of-drifts run)
-    (core-report "run" (numerics-report run (numerics-status-words run stop trouble) asked))))
+    (core-report "run" (numerics-report
+                        run
+                        (numerics-course-fields run (numerics-status-words run stop trouble))
+                        asked))))
 
 (defun numerics-set-seconds (run began compiled)
   "The time that the derivation of RUN took since BEGAN, and the compilation of programs when the
@@ -73,9 +76,24 @@ clock of these showed COMPILED."
                  unless (and next (= (first row) (first next)))
                    collect (cons '(mlist simp) row)))))
 
+(defun numerics-long-p (wishes)
+  "Whether rows of many digits are wanted, and can be had."
+  (unless (eql (numerics-wishes-digits wishes) 0)
+    (core-require "numerics/run_digits")
+    (numerics-check-digits wishes)
+    t))
+
 (defun numerics-mass-wanted (wishes)
   "How far M is divided out: Radau's method takes it as it is."
   (if (eq (numerics-wishes-method wishes) '$radau) nil :regular))
+
+(defun numerics-rows-of-run (run began compiled)
+  "Makes RUN; its rows, as a Maxima list."
+  (numerics-watch-integrals run)
+  (let ((stop (numerics-carry-out run)))
+    (numerics-set-seconds run began compiled)
+    (numerics-tell run stop)
+    (numerics-all-rows run)))
 
 ;;; For Maxima.
 
@@ -83,13 +101,12 @@ clock of these showed COMPILED."
   "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say;
 BEGAN is the time when their derivation began."
   (with-algebra-program
-    (let* ((compiled *numerics-compile-seconds*)
+    (let* ((compiled *numerics-compile-seconds*) (long (numerics-long-p wishes))
            (pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
            (rates (numerics-with-quadratures
                    (numerics-run-rates rates pairs (numerics-mass-wanted wishes)) start))
-           (run (numerics-new-run rates pairs (numerics-start-values rates start values) span
-                                  wishes))
-           (stop (progn (numerics-watch-integrals run) (numerics-carry-out run))))
-      (numerics-set-seconds run began compiled)
-      (numerics-tell run stop)
-      (numerics-all-rows run))))
+           (exact (numerics-start-values rates start values))
+           (run (numerics-new-run rates pairs exact span wishes)))
+      (if long
+          (numerics-long-rows run exact span began)
+          (numerics-rows-of-run run began compiled)))))
