@@ -44,7 +44,8 @@
           (let ((fault (numerics-gauss-one-step run controls moment seen)))
             (when fault (return fault)))
           (case (and observer (funcall (the function observer) seen))
-            (:stop (return :stopped))
+            (:stop (replace moment (numerics-step-to seen))
+                   (return :stopped))
             (:changed (fill (numerics-gauss-run-low run) 0d0))))))
 
 (defun numerics-gauss-one-step (run controls moment seen)

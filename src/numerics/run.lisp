@@ -23,6 +23,7 @@
   drifts drifting                                   ; those of integrals, and their names
   untold                                            ; sentences on integrals that are not given
   lost                                              ; (coordinate share) of a pivot that was lost
+  fault                                             ; why an observer ended it, a phrase
   (began 0d0)                                       ; when the method began
   (seconds 0d0)                                     ; of the method alone, without compilations
   (compiled-on-the-way 0d0)                         ; seconds of these
