@@ -81,11 +81,11 @@ BEGAN."
 
 (defun numerics-bigfloat-rows (outcome times points)
   "The rows of OUTCOME at the TIMES that POINTS asks for, and at the end."
-  (apply #'algebra-list
+  (cons '(mlist simp)
          (loop for row in (numerics-taylor-outcome-rows outcome)
                for (time . later) on times
                when (or (integerp points) (null later) (member time (cdr points) :test #'alike1))
-                 collect (apply #'algebra-list row))))
+                 collect (cons '(mlist simp) row))))
 
 (defun numerics-trouble-of-series (outcome)
   (unless (eq (numerics-outcome-status outcome) :end)
