@@ -166,6 +166,23 @@
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
 
+;;; What is drawn: equilibria with verdicts, numbers put in for parameters
+
+(defparameter *analysis-values* (list "values" *analysis-none*))
+(core-rule "rest_points" *analysis-states* "analysis/rest_points" "analysis_rest_points_state"
+  "state_equations" *analysis-variables* *analysis-values* *analysis-laws*)
+(core-rule "rest_points" *analysis-motions* "analysis/rest_points" "analysis_rest_points_lagrange"
+  "LagrangeEquations" "coordinates" "Lagrangian" "actions" *analysis-values* *analysis-laws*)
+(core-rule-given '("function" $routh) "rest_points" *analysis-kinds* "analysis/rest_points"
+  "analysis_rest_points_lagrange"
+  "RouthEquations" "remaining_coordinates" "RouthFunction" "actions" *analysis-values*
+  *analysis-laws*)
+(loop for (given kinds) in `((("function" $hamilton) ,*analysis-kinds*)
+                             ("hamiltonian" ("lagrangian")))
+      do (core-rule-given given "rest_points" kinds "analysis/rest_points"
+           "analysis_rest_points_hamilton"
+           "HamiltonEquations" "Hamiltonian" "actions" *analysis-values* *analysis-laws*))
+
 ;;; The method of Routh and Lyapunov
 
 (core-public "SecondVariation"

@@ -100,6 +100,16 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
   (dolist (text (reverse *core-later*)) (core-warn "~a" text))
   (setq *core-later* '()))
 
+;;; What is shown to the person beside the result, in his own session
+
+(defvar *core-afterwards* '() "Functions that are called once the call is over, newest first.")
+
+(defun core-afterwards (function) (push function *core-afterwards*))
+
+(defun core-do-afterwards ()
+  (mapc #'funcall (reverse *core-afterwards*))
+  (setq *core-afterwards* '()))
+
 (defun $core_error (&rest items) (core-signal (core-words items)))
 
 (defun $core_undecided (&rest items) (core-undecided "~a" (core-words items)))

@@ -12,7 +12,8 @@
   (core-require "numerics/linear_solver_matrix" "numerics/observers" "numerics/problem"
                 "numerics/sparse" "numerics/step_control"))
 
-(defconstant numerics-unit-roundoff 1.1102230246251565d-16 "Half of the distance from 1 to the next number.")
+(defconstant numerics-unit-roundoff 1.1102230246251565d-16
+  "Half of the distance from 1 to the next number.")
 
 (defun numerics-conditioning (method problem controls moment state)
   "Two values: u times the growth over the span of CONTROLS, and the time since when that is; nil
@@ -61,7 +62,8 @@ where METHOD, a function such as numerics-dopri, does not reach the end."
 (defun numerics-growth (method both controls moment state)
   (let* ((n (floor (length state) 2)) (scales (numerics-full-scales controls n))
          (copy (numerics-copied-controls controls 1d-6 (numerics-controls-end controls))))
-    (setf (numerics-controls-scales copy) (concatenate 'numerics-vector scales scales))
+    (setf (numerics-controls-scales copy) (concatenate 'numerics-vector scales scales)
+          (numerics-controls-inspect copy) nil)
     (let* ((outcome (funcall method both copy moment state (constantly nil)))
            (end (numerics-outcome-state outcome)))
       (when (eq (numerics-outcome-status outcome) :end)
@@ -92,7 +94,7 @@ where METHOD, a function such as numerics-dopri, does not reach the end."
               (aref columns (+ n j)) (mapcar (lambda (row) (+ n row)) rows))))))
 
 (defun numerics-doubled-jacobian (problem)
-  "What the second derivatives give below the diagonal is left out: Newton's method does not need it."
+  "The second derivatives below the diagonal are left out: Newton's method can do without."
   (let* ((n (numerics-problem-size problem)) (x (numerics-zeros n))
          (entries (length (numerics-pattern-rows (numerics-problem-pattern problem))))
          (values (numerics-zeros entries)))

@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Gauss-Legendre collocation with a fixed step, for conservative systems over long spans: of order
-;;; 2s with s stages, symplectic and symmetric (Hairer, Lubich, Wanner, Geometric Numerical
+;;; Gauss-Legendre collocation with a fixed step, for conservative systems over long spans: of
+;;; order 2s with s stages, symplectic and symmetric (Hairer, Lubich, Wanner, Geometric Numerical
 ;;; Integration, VIII.6; Hairer, McLachlan, Razakarivony, Achieving Brouwer's law with implicit
-;;; Runge-Kutta methods, BIT 48, 2008). The step is that of the controls, else one that the tolerance
-;;; allows along the first part of the run; the last one ends at the end of the controls.
+;;; Runge-Kutta methods, BIT 48, 2008). The step is that of the controls, else one that the
+;;; tolerance allows along the first part of the run; the last one ends at the end of the controls.
 
 (in-package :maxima)
 
@@ -27,10 +27,11 @@
 (defun numerics-gauss-order (controls)
   "The order that reaches the tolerance with the fewest rates, as measured on the double pendulum."
   (let ((tolerance (numerics-controls-relative controls)))
-    (cond ((>= tolerance 1d-5) 4)
-          ((>= tolerance 1d-8) 6)
-          ((>= tolerance 1d-11) 8)
-          (t 10))))
+    (cond ((>= tolerance 1d-4) 4)
+          ((>= tolerance 1d-6) 6)
+          ((>= tolerance 1d-9) 8)
+          ((>= tolerance 1d-11) 10)
+          (t 12))))
 
 (defun numerics-gauss-steps (run controls moment state observer)
   "Steps until the end, or until something goes wrong or somebody stops: the status."
@@ -43,7 +44,8 @@
           (let ((fault (numerics-gauss-one-step run controls moment seen)))
             (when fault (return fault)))
           (case (and observer (funcall (the function observer) seen))
-            (:stop (return :stopped))
+            (:stop (replace moment (numerics-step-to seen))
+                   (return :stopped))
             (:changed (fill (numerics-gauss-run-low run) 0d0))))))
 
 (defun numerics-gauss-one-step (run controls moment seen)

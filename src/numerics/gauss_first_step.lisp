@@ -37,8 +37,8 @@
 (defun numerics-gauss-pilot (pilot span)
   "The shortest step, with its sign, of a pilot run along a part of SPAN; or what went wrong. A step
 that cannot be made bounds all others."
-  (let* ((longest (min (abs span) (or (numerics-controls-largest-step (numerics-pilot-controls pilot))
-                                      (abs span))))
+  (let* ((largest (numerics-controls-largest-step (numerics-pilot-controls pilot)))
+         (longest (min (abs span) (or largest (abs span))))
          (shortest longest) (steps 0) (left (abs span)) (step (/ longest 100)))
     (loop
       (when (< step (* 1d-14 (abs span))) (return :no-convergence))

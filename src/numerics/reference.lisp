@@ -1,14 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; What a run is measured against. A reference value of the end: by Taylor series of 20 digits, two
 ;;; runs of which agree, where they reach the end in so many steps (a stiff system is beyond them);
-;;; else by Radau at a tolerance of 1e-13, whose distance to its run at 1e-12 is the floor below which
-;;; no error can be judged, and which dlsode, another method, has to confirm.
+;;; else by Radau at a tolerance of 1e-13, whose distance to its run at 1e-12 is the floor below
+;;; which no error can be judged, and which dlsode, another method, has to confirm.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode" "numerics/problem" "numerics/radau"
-                "numerics/step_control" "numerics/taylor"))
+  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode" "numerics/problem"
+                "numerics/radau" "numerics/step_control" "numerics/taylor"))
 
 (defstruct numerics-reference
   state  ; the end, double-float numbers; nil where nothing could be had
@@ -17,8 +17,8 @@
   rows)  ; bigfloats, of Taylor series only
 
 (defun numerics-reference-of (problem controls start times &key (digits 20) (most-steps 5000))
-  "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the exact
-TIMES; the last of these is the end."
+  "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the
+exact TIMES; the last of these is the end."
   (let ((outcome (and (numerics-problem-program problem)
                       (numerics-taylor (numerics-problem-program problem) start times digits
                                        :scales (map 'list #'rational
@@ -47,7 +47,7 @@ TIMES; the last of these is the end."
           (numerics-judged-reference fine (numerics-distance coarse fine scales)
                                      (and other (numerics-distance other fine scales)))
           (make-numerics-reference
-           :method "no reference: Radau at tolerances of 1e-13 and 1e-12 does not reach the end")))))
+           :method "no reference: Radau at a tolerance of 1e-13 does not reach the end")))))
 
 (defparameter *numerics-most-distance* 1d-4 "Of another method of less accuracy to the reference.")
 

@@ -9,7 +9,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "forms/dynamics"
-                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/events"
+                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/decimals"
+                "numerics/events"
                 "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
                 "numerics/back_to_constraints" "numerics/rates_problem" "numerics/routine"
                 "numerics/run_options"))
@@ -22,6 +23,7 @@
   drifts drifting                                   ; those of integrals, and their names
   untold                                            ; sentences on integrals that are not given
   lost                                              ; (coordinate share) of a pivot that was lost
+  fault                                             ; why an observer ended it, a phrase
   (began 0d0)                                       ; when the method began
   (seconds 0d0)                                     ; of the method alone, without compilations
   (compiled-on-the-way 0d0)                         ; seconds of these
@@ -88,8 +90,7 @@ put in, pairs (name . element)."
                  :rates rates :values values :wishes wishes :program program
                  :moment (numerics-moment from)
                  :state (numerics-start-vector rates start)
-                 :problem (numerics-problem-of program :angles (numerics-angle-places rates)
-                                                       :jacobian nil))))
+                 :problem (numerics-problem-of program :jacobian nil))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
             (numerics-simulation-constraints run) (numerics-constraints-of rates program))
@@ -194,25 +195,33 @@ momenta that have one of VALUES, equations, begin with it."
   (let ((rates (numerics-zeros (length (numerics-simulation-state run)))))
     (numerics-with-masked-traps
       (funcall (numerics-problem-rates (numerics-simulation-problem run))
-               (numerics-simulation-moment run) (numerics-simulation-state run) rates))
-    (loop for rate across rates
-          for name in (forms-rates-states (numerics-simulation-rates run))
-          do (unless (numerics-finite-p rate)
-               (core-error "at the start the rate of ~a has no finite value; the equations are ~
-                            singular there: start elsewhere" (numerics-name-text name))))))
+               (numerics-simulation-moment run) (numerics-simulation-state run) rates)
+      (loop for rate across rates
+            for name in (forms-rates-states (numerics-simulation-rates run))
+            do (unless (numerics-finite-p rate)
+                 (core-error "at the start the rate of ~a has no finite value; the equations are ~
+                              singular there: start elsewhere" (numerics-name-text name)))))))
 
 (defun numerics-lost-pivot (run moment state)
   "The coordinate whose pivot is lost at STATE, and what is left of it; nil where there is none."
   (when (numerics-simulation-guards run)
     (let ((shares (numerics-zeros (length (forms-rates-guards (numerics-simulation-rates run))))))
-      (numerics-with-masked-traps (funcall (numerics-simulation-guards run) moment state shares))
-      (loop for share across shares
-            for (name) in (forms-rates-guards (numerics-simulation-rates run))
-            unless (> (abs share) *numerics-least-pivot*)
-              do (return (list (numerics-name-text name) share))))))
+      (numerics-with-masked-traps
+        (funcall (numerics-simulation-guards run) moment state shares)
+        (loop for share across shares
+              for (name) in (forms-rates-guards (numerics-simulation-rates run))
+              unless (> (abs share) *numerics-least-pivot*)
+                do (return (list (numerics-name-text name) share)))))))
+
+(defun numerics-lost-words (lost)
+  "What is said of a pivot that is LOST: (coordinate share); where M_kk is 0 too the share is no number."
+  (destructuring-bind (name share) lost
+    (if (numerics-with-masked-traps (= share share))
+        (format nil "of the inertia of ~a ~a of 1 is left when the bodies beyond it yield"
+                name (numerics-short-number share))
+        (format nil "the inertia of ~a vanishes" name))))
 
 (defun numerics-check-pivots (run moment state)
   (let ((lost (numerics-lost-pivot run moment state)))
     (when lost
-      (core-error "the mass matrix is singular at the start: of the inertia of ~a ~,2g of 1 is left ~
-                   when the bodies beyond it yield" (first lost) (second lost)))))
+      (core-error "the mass matrix is singular at the start: ~a" (numerics-lost-words lost)))))

@@ -5,9 +5,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/back_to_constraints" "numerics/drifts" "numerics/events"
-                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/problem"
-                "numerics/routine" "numerics/run" "numerics/run_options"))
+  (core-require "forms/rates" "numerics/back_to_constraints" "numerics/drifts" "numerics/events"
+                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
+                "numerics/problem"
+                "numerics/routine" "numerics/run" "numerics/run_options"
+                "numerics/switches"))
 
 ;;; Methods
 
@@ -47,12 +49,48 @@
         (setf (numerics-simulation-lost run) lost)
         :stop))))
 
+(defun numerics-run-pole-part (run)
+  "A part of an observer that stops before a pole, or nil."
+  (let* ((rates (numerics-simulation-rates run))
+         (poles (numerics-new-poles
+                 (numerics-simulation-program run) (mapcar #'second (forms-rates-guards rates))
+                 (numerics-problem-rates (numerics-simulation-problem run))
+                 (numerics-controls-scales (numerics-simulation-controls run)))))
+    (when poles
+      (numerics-pole-part poles (lambda (words)
+                                  (setf (numerics-simulation-fault run)
+                                        (format nil "the right-hand side divides by zero in the ~
+                                                     next step~@[: ~a vanishes~]" words)))))))
+
+(defparameter *numerics-cutting-methods* '($auto $dop853 $radau) "Those that inspect a step.")
+
+(defun numerics-run-switch-part (run)
+  "Where the right-hand side of RUN has jumps or corners, a method that can looks at each of its steps;
+for others a part of an observer, or nil."
+  (let* ((controls (numerics-simulation-controls run)) (wishes (numerics-simulation-wishes run))
+         (switches (numerics-new-switches
+                    (numerics-simulation-program run)
+                    (numerics-problem-rates (numerics-simulation-problem run)) controls)))
+    (cond ((null switches) nil)
+          ((member (numerics-wishes-method wishes) *numerics-cutting-methods*)
+           (setf (numerics-controls-inspect controls)
+                 (lambda (step) (numerics-inspect-switches switches step)))
+           nil)
+          (t (numerics-switch-part
+              switches
+              (lambda (words)
+                (setf (numerics-simulation-fault run)
+                      (format nil "the next step would go over a jump or corner of the right-hand ~
+                                   side, where ~a = 0; take method = auto" words))))))))
+
 (defun numerics-run-observer (run)
   (numerics-observer
    (remove nil
            (list (and (numerics-simulation-constraints run)
                       (numerics-projection-part (numerics-simulation-constraints run)))
                  (and (numerics-simulation-guards run) (numerics-guard-part run))
+                 (numerics-run-pole-part run)
+                 (numerics-run-switch-part run)
                  (and (numerics-simulation-events run)
                       (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
                  (and (numerics-simulation-drifts run)
@@ -92,18 +130,18 @@
 (defun numerics-trouble (run)
   "Why the RUN did not come to its end, a phrase; nil where it did."
   (let ((outcome (numerics-simulation-outcome run)))
-    (if (and (numerics-simulation-constraints run)
-             (numerics-constraints-singular (numerics-simulation-constraints run)))
-        "the constraints depend on each other there"
-        (and (or (numerics-simulation-lost run)
-                 (not (member (numerics-outcome-status outcome) '(:end :stopped))))
-             (numerics-trouble-of-steps run outcome)))))
+    (cond ((and (numerics-simulation-constraints run)
+                (numerics-constraints-singular (numerics-simulation-constraints run)))
+           "the constraints depend on each other there")
+          ((numerics-simulation-fault run))
+          ((or (numerics-simulation-lost run)
+               (not (member (numerics-outcome-status outcome) '(:end :stopped))))
+           (numerics-trouble-of-steps run outcome)))))
 
 (defun numerics-trouble-of-steps (run outcome)
   (if (numerics-simulation-lost run)
-      (format nil "the mass matrix becomes singular: of the inertia of ~a ~,2g of 1 is left when ~
-                   the bodies beyond it yield"
-              (first (numerics-simulation-lost run)) (second (numerics-simulation-lost run)))
+      (format nil "the mass matrix becomes singular: ~a"
+              (numerics-lost-words (numerics-simulation-lost run)))
       (format nil (ecase (numerics-outcome-status outcome)
                     (:not-finite "the right-hand side has no finite value there")
                     (:smallest-step "the step became as small as the last place of t: the solution ~
@@ -111,4 +149,6 @@
                     (:no-convergence "the equations of the implicit steps could not be solved")
                     (:inconsistent "the algebraic equations do not hold there")
                     (:most-steps "the most steps that were allowed are made")
-                    (:singular "the matrix of the implicit steps is singular")))))
+                    (:too-slow "the steps became too short")
+                    (:singular "the matrix of the implicit steps is singular")
+                    (:sliding "no solution in the ordinary sense goes on there")))))

@@ -19,9 +19,11 @@ methods with a fixed one, or 0; ESTIMATE and CONDITIONING: whether these are wan
 (defun numerics-double (e what)
   "The double-float number next to the Maxima constant E; WHAT it is, for the message."
   (let ((value (car (core-attempt (lambda () ($float e))))))
-    (if (and (floatp value) (numerics-finite-p (coerce value 'double-float)))
-        (coerce value 'double-float)
-        (core-error "~a must be a number, found ~a" what (core-words (list e))))))
+    (cond ((and (floatp value) (numerics-finite-p (coerce value 'double-float)))
+           (coerce value 'double-float))
+          ((mnump e)
+           (core-error "~a is beyond the range of double-float numbers, 1.8e308" what))
+          (t (core-error "~a must be a number, found ~a" what (core-words (list e)))))))
 
 (defun numerics-items (list)
   (and (consp list) (consp (car list)) (eq (caar list) 'mlist) (cdr list)))

@@ -7,7 +7,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/decimals"
-                "numerics/drifts" "numerics/problem" "numerics/run" "numerics/run_options"))
+                "numerics/drifts" "numerics/events" "numerics/problem" "numerics/run"
+                "numerics/run_options"))
 
 (defun numerics-rounded-seconds (seconds)
   "SECONDS to the microsecond."
@@ -24,7 +25,7 @@
 (defun numerics-report (run course asked)
   "What stands beside the rows, as a Maxima list, first the fields COURSE; ASKED: fields that were
 asked for."
-  (apply #'algebra-list
+  (cons '(mlist simp)
          (append course
                  (numerics-seconds-fields run)
                  (numerics-drift-fields run)
@@ -58,11 +59,11 @@ asked for."
 (defun numerics-drift-fields (run)
   (append
    (list (algebra-field '$drifts
-                        (apply #'algebra-list
+                        (cons '(mlist simp)
                                (loop for (name . drift) in (numerics-named-drifts run)
                                      collect (algebra-field name (numerics-few-digits drift))))))
    (when (numerics-simulation-untold run)
-     (list (algebra-field '$untold (apply #'algebra-list (numerics-simulation-untold run)))))
+     (list (algebra-field '$untold (cons '(mlist simp) (numerics-simulation-untold run)))))
    (when (numerics-simulation-constraints run)
      (list (algebra-field '$residual (numerics-few-digits
                                       (numerics-constraints-largest
@@ -70,8 +71,21 @@ asked for."
 
 (defun numerics-remark-fields (run)
   (let ((outcome (numerics-simulation-outcome run)))
-    (when (and outcome (numerics-outcome-about outcome))
-      (list (algebra-field '$about (numerics-outcome-about outcome))))))
+    (append (numerics-event-fields run)
+            (when (and outcome (numerics-outcome-about outcome))
+              (list (algebra-field '$about (numerics-outcome-about outcome)))))))
+
+(defun numerics-event-fields (run)
+  "events = [[t, number of the event, 1 upwards, -1 downwards, 0 where it touches 0], ..]"
+  (let ((events (numerics-simulation-events run)))
+    (when events
+      (list (algebra-field
+             '$events
+             (cons '(mlist simp)
+                    (loop for event in (reverse (numerics-events-found events))
+                          collect (algebra-list (aref (numerics-event-moment event) 0)
+                                                (1+ (numerics-event-place event))
+                                                (numerics-event-direction event)))))))))
 
 ;;; A drift that is out of proportion
 

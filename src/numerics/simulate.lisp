@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates"
+  (core-require "algebra/program_nodes" "forms/rates"
                 "numerics/decimals" "numerics/events" "numerics/observers" "numerics/problem"
                 "numerics/rate_program" "numerics/routine" "numerics/run" "numerics/run_course"
                 "numerics/run_estimate" "numerics/run_integrals" "numerics/run_options"
@@ -71,10 +71,10 @@ clock of these showed COMPILED."
   "All rows of RUN as a Maxima list; those of events stand at their times."
   (let ((rows (merge 'list (numerics-rows-of (numerics-simulation-rows run))
                      (numerics-event-rows run) #'< :key #'first)))
-    (apply #'algebra-list
+    (cons '(mlist simp)
            (loop for (row next) on rows
                  unless (and next (= (first row) (first next)))
-                   collect (apply #'algebra-list row)))))
+                   collect (cons '(mlist simp) row)))))
 
 (defun numerics-long-p (wishes)
   "Whether rows of many digits are wanted, and can be had."

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Rows of many digits by Taylor series. No bound of the error is computed: a result stands only where
-;;; a second run, with other order, other steps and more bits, agrees with it to the digits that are
-;;; wanted; the first run's steps are exact to 4 digits more, those of the next to 5 digits more again,
-;;; and where instability or cancellation costs more than these, runs with as many more follow.
+;;; Rows of many digits by Taylor series. No bound of the error is computed: a result stands only
+;;; where a second run, with other order, other steps and more bits, agrees with it to the digits
+;;; that are wanted. The first run's steps are exact to 4 digits more, those of the next to 5 digits
+;;; more again; where instability or cancellation costs more, runs with as many more follow.
 
 (in-package :maxima)
 

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Fixed-point numbers: a whole number of Lisp stands for itself times 2^-bits. What a Taylor series
-;;; needs of them: from exact numbers and constants of Maxima, to bigfloats, and the values of
-;;; functions, by Maxima's bigfloats with as many bits more as the result has before its point.
+;;; Fixed-point numbers: a whole number of Lisp stands for itself times 2^-bits. What a Taylor
+;;; series needs of them: from exact numbers and constants of Maxima, to bigfloats, and the values
+;;; of functions, by Maxima's bigfloats with as many bits more as the result has before its point.
 
 (in-package :maxima)
 
