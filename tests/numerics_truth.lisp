@@ -63,3 +63,20 @@
       (test-with-function check
                           (lambda (own) (lambda (&rest arguments) (apply own (apply change arguments))))
                           (lambda () (meval e))))))
+
+(defun $test_long_decimals (count)
+  "Those of COUNT random bigfloats, decimals of all their digits, that an archive does not keep."
+  (core-require "archive/speller" "archive/parser" "core/bigfloats")
+  (let ((state (make-random-state nil)))
+    (flet ((whole () (1+ (random (expt 10 (1+ (random 40 state))) state))))
+      (cons '(mlist simp)
+            (loop repeat count
+                  for digits = (+ 2 (random 60 state))
+                  for number = (* (- 1 (* 2 (random 2 state))) (/ (whole) (whole)))
+                  for e = (core-decimal-bigfloat number digits)
+                  for text = (archive-settled-text (list '(mlist simp) e '$x) :doubles t)
+                  for again = (second (archive-parse-value text :doubles t))
+                  unless (and (equal again e) (= digits (core-bigfloat-digits again))
+                              (<= (* 2 (abs (- (core-bigfloat-rational e) number)) (expt 10 (1- digits)))
+                                  (* (abs number) 1001/1000)))
+                    collect text)))))

@@ -44,8 +44,7 @@ BEGAN."
           (numerics-taylor (numerics-simulation-program run) start times digits)
           (numerics-simulation-seconds run) (- (numerics-seconds) (numerics-simulation-began run))
           (numerics-simulation-derivation-seconds run) (- (numerics-simulation-began run) began))
-    (let ((rows (numerics-bigfloat-rows (numerics-simulation-outcome run) times
-                                        (numerics-wishes-points wishes))))
+    (let ((rows (numerics-bigfloat-rows (numerics-simulation-outcome run) times wishes)))
       (numerics-set-big-drifts run rows)
       (numerics-tell-long run rows)
       rows)))
@@ -79,6 +78,7 @@ BEGAN."
         (let ((times (cons from (append (cdr points) (list to)))))
           (remove-duplicates times :test #'alike1)))))
 
+<<<<<<< HEAD
 (defun numerics-bigfloat-rows (outcome times points)
   "The rows of OUTCOME at the TIMES that POINTS asks for, and at the end."
   (cons '(mlist simp)
@@ -86,6 +86,19 @@ BEGAN."
                for (time . later) on times
                when (or (integerp points) (null later) (member time (cdr points) :test #'alike1))
                  collect (cons '(mlist simp) row))))
+=======
+(defun numerics-bigfloat-rows (outcome times wishes)
+  "The rows of OUTCOME at those of TIMES that are wanted, and at the end; the numbers are decimals of so
+many digits, as an archive keeps them."
+  (let ((points (numerics-wishes-points wishes)) (digits (numerics-wishes-digits wishes)))
+    (flet ((number (x) (core-decimal-bigfloat (core-bigfloat-rational x) digits)))
+      (apply #'algebra-list
+             (loop for row in (numerics-taylor-outcome-rows outcome)
+                   for (time . later) on times
+                   when (or (integerp points) (null later)
+                            (member time (cdr points) :test #'alike1))
+                     collect (apply #'algebra-list (mapcar #'number row)))))))
+>>>>>>> num-truth
 
 (defun numerics-trouble-of-series (outcome)
   (unless (eq (numerics-outcome-status outcome) :end)

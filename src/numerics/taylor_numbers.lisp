@@ -40,8 +40,7 @@
       (numerics-fixed-of-big (cdr (bigfloatp big)) bits))))
 
 (defun numerics-bigfloat-of-fixed (x bits digits)
-  "The bigfloat next to the decimal of DIGITS digits."
-  (core-decimal-bigfloat (/ x (ash 1 bits)) digits))
+  (core-bigfloat (/ x (ash 1 bits)) digits))
 
 (defun numerics-double-of-fixed (x bits)
   (numerics-rounded (/ x (ash 1 bits))))
