@@ -78,27 +78,17 @@ BEGAN."
         (let ((times (cons from (append (cdr points) (list to)))))
           (remove-duplicates times :test #'alike1)))))
 
-<<<<<<< HEAD
-(defun numerics-bigfloat-rows (outcome times points)
-  "The rows of OUTCOME at the TIMES that POINTS asks for, and at the end."
-  (cons '(mlist simp)
-         (loop for row in (numerics-taylor-outcome-rows outcome)
-               for (time . later) on times
-               when (or (integerp points) (null later) (member time (cdr points) :test #'alike1))
-                 collect (cons '(mlist simp) row))))
-=======
 (defun numerics-bigfloat-rows (outcome times wishes)
   "The rows of OUTCOME at those of TIMES that are wanted, and at the end; the numbers are decimals of so
 many digits, as an archive keeps them."
   (let ((points (numerics-wishes-points wishes)) (digits (numerics-wishes-digits wishes)))
     (flet ((number (x) (core-decimal-bigfloat (core-bigfloat-rational x) digits)))
-      (apply #'algebra-list
+      (cons '(mlist simp)
              (loop for row in (numerics-taylor-outcome-rows outcome)
                    for (time . later) on times
                    when (or (integerp points) (null later)
                             (member time (cdr points) :test #'alike1))
-                     collect (apply #'algebra-list (mapcar #'number row)))))))
->>>>>>> num-truth
+                     collect (cons '(mlist simp) (mapcar #'number row)))))))
 
 (defun numerics-trouble-of-series (outcome)
   (unless (eq (numerics-outcome-status outcome) :end)
