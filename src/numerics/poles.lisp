@@ -33,12 +33,13 @@ where there cannot be any. SCALES are those of the states."
                              :state (numerics-zeros n) :slope (numerics-zeros n))))))
 
 (defun numerics-pole-part (poles found)
-  "A part of an observer that calls FOUND with words for what vanishes and ends the run before a step
-over a pole."
+  "A part of an observer that calls FOUND with words for what vanishes, and the time, and ends the run
+before a step over a pole."
   (lambda (step)
     (let ((place (numerics-passed-pole poles step)))
       (when place
-        (funcall found (numerics-element-words (nth place (numerics-poles-elements poles))))
+        (funcall found (numerics-element-words (nth place (numerics-poles-elements poles)))
+                 (numerics-pole-time poles step place))
         (numerics-undo-step step)
         :stop))))
 
@@ -83,12 +84,21 @@ over a pole."
     (values b (let ((product (map 'numerics-vector (lambda (x) (* b x)) slope)))
                 (and (/= b 0d0) (every #'numerics-finite-p product) product)))))
 
+(defun numerics-divisor-zero (poles step place)
+  "The share of STEP where the divisor PLACE vanishes."
+  (numerics-zero-between (lambda (share) (numerics-divisor-at poles step place share)) 0d0 1d0
+                         (numerics-share-tolerance step)))
+
+(defun numerics-pole-time (poles step place)
+  (let ((moment (numerics-poles-moment poles)))
+    (numerics-step-moment step (numerics-divisor-zero poles step place) moment)
+    (aref moment 0)))
+
 (defun numerics-pole-p (poles step place)
   "Whether b X, of the divisor b at PLACE, does not vanish where b does: at the zero of b, as near as
 numbers come, it is compared with that at a small distance."
-  (let* ((tolerance (numerics-share-tolerance step))
-         (share (numerics-zero-between
-                 (lambda (share) (numerics-divisor-at poles step place share)) 0d0 1d0 tolerance)))
+  (let ((tolerance (numerics-share-tolerance step))
+        (share (numerics-divisor-zero poles step place)))
     (multiple-value-bind (near at-near) (numerics-strength-near poles step place share tolerance)
       (multiple-value-bind (far at-far)
           (numerics-greater-strength poles step place
