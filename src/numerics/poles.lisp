@@ -105,7 +105,7 @@ numbers come, it is compared with that at a small distance."
                                      (numerics-shares-about share (sqrt tolerance)))
         (cond ((> (abs near) (abs far)) nil)
               ((and at-near at-far)
-               (numerics-stays-p (abs (/ near far)) at-near
+               (numerics-strength-stays-p (abs (/ near far)) at-near
                                  (numerics-at-least-visible poles step far at-far)))
               (t t))))))
 
@@ -135,7 +135,7 @@ the last place of the time."
          (lambda (p x scale) (max (abs p) (abs (/ (* 1d-6 b (+ (abs x) scale)) length))))
          product (numerics-step-before step) (numerics-poles-scales poles))))
 
-(defun numerics-stays-p (ratio near far)
+(defun numerics-strength-stays-p (ratio near far)
   "Whether a component of NEAR is more than is left of that of FAR when b goes down by RATIO: half its
 square root."
   (loop for a across near
