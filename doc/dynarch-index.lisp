@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 1843189420 76440
+;;; Made by tools/doc; checksum of doc/*.texi: 3626506789 79773
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -51,6 +51,7 @@
 ("LinearIntegrals" . ("dynarch.info" 71490 654 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 72145 702 "Definitions for Analysis"))
 ("RateProgram" . ("dynarch.info" 73126 4475 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 77602 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -60,6 +61,6 @@
 ("Definitions for LinModel" . ("dynarch.info" 8777 30385))
 ("Definitions for Circuits" . ("dynarch.info" 39294 7926))
 ("Definitions for Analysis" . ("dynarch.info" 47352 25495))
-("Definitions for Numerics" . ("dynarch.info" 72982 4619))
+("Definitions for Numerics" . ("dynarch.info" 72982 7924))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

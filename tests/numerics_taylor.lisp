@@ -19,7 +19,7 @@
 
 (defun $test_series (e start order digits)
   "The Taylor coefficients of E, an expression of t, at START."
-  (let* ((bits (numerics-bits-of-digits (+ digits 20)))
+  (let* ((bits (core-bits-of-digits (+ digits 20)))
          (expansion (numerics-expansion-of (taylor-program (taylor-list (list '$x))
                                                            (taylor-list (list e)))
                                            bits (1+ order)))

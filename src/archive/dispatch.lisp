@@ -8,8 +8,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/argument_checks" "archive/argument_types" "archive/call"
-                "archive/derived" "archive/exact" "archive/groups" "archive/names" "archive/open"
-                "archive/options" "archive/steps" "archive/types"))
+                "archive/derived" "archive/exact" "archive/groups" "archive/names"
+                "archive/needs" "archive/open" "archive/options" "archive/steps" "archive/types"))
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."

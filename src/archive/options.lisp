@@ -9,8 +9,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/argument_types" "archive/call" "archive/groups" "archive/keys"
-                "archive/names" "archive/open" "archive/results" "archive/steps" "archive/types"
-                "core/nearest"))
+                "archive/names" "archive/needs" "archive/open" "archive/results"
+                "archive/types" "core/nearest"))
 
 (defun archive-option-name (equation)
   (let ((left (cadr equation)))

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/compounds" "archive/parser" "archive/simplify" "archive/tokens"))
+  (core-require "archive/compounds" "archive/parser" "archive/simplify" "archive/tokens"
+                "core/bigfloats"))
 
 (defvar *archive-out* nil
   "What is written, the last piece first. (GCL's string streams take time in squares.)")
@@ -97,7 +98,7 @@ one."
          (archive-put (archive-spell-integer (cadr e)))
          (archive-put "/")
          (archive-put (archive-spell-integer (caddr e))))
-        (t (archive-unspellable "a bigfloat"))))
+        (t (archive-put (or (core-bigfloat-text e) (archive-unspellable "a bigfloat"))))))
 
 ;; How an expression is seen: what is written first, and how strongly it binds
 
@@ -112,7 +113,10 @@ one."
 
 (defun archive-without-minus (e)
   "-E, for an E that leads with a negative number, as a form to be written."
-  (flet ((opposite (number) (if (floatp number) (- number) (timesk -1 number))))
+  (flet ((opposite (number)
+           (cond ((floatp number) (- number))
+                 (($bfloatp number) (core-bigfloat-negative number))
+                 (t (timesk -1 number)))))
     (cond ((mnump e) (opposite e))
           ((and (eql (cadr e) -1) (cdddr e)) (cons (car e) (cddr e)))
           ((eql (cadr e) -1) (caddr e))

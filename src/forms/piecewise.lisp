@@ -124,6 +124,17 @@ not decided which branch holds there."
                                     (catch 'forms-no-branch (forms-branch e at-point))))))
          e)))
 
+(defun $forms_open_kink (e)
+  "A function with branches whose derivative E still has as a noun: which branch holds is open."
+  (cond ((atom e) nil)
+        ((eq (caar e) '%derivative) (forms-first-kinked (cadr e)))
+        (t (some #'$forms_open_kink (cdr e)))))
+
+(defun forms-first-kinked (e)
+  (cond ((atom e) nil)
+        ((member (caar e) *forms-kinked*) e)
+        (t (some #'forms-first-kinked (cdr e)))))
+
 ;;; Jumps: a derivative taken by a formula says nothing of a function that jumps at the point.
 
 (defparameter *forms-stepping*

@@ -7,7 +7,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"
-                "algebra/program_record"))
+                "algebra/program_record" "algebra/size"))
 
 (defun numerics-divisors (elements positive)
   "What ELEMENTS divide by and what may change its sign; POSITIVE, elements, does not."

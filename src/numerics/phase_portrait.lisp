@@ -5,7 +5,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "algebra/program_record" "numerics/decimals"
+  (core-require "algebra/program_nodes" "algebra/program_record"
                 "numerics/native" "numerics/pictures" "numerics/plane" "numerics/rests_in_window" "numerics/run"
                 "numerics/trajectories"))
 
@@ -30,9 +30,9 @@
                                          (mapcar #'numerics-rest-place found)))))
 
 (defun numerics-say-section (plane rests)
-  (loop for (name . number) in (numerics-plane-held plane)
+  (loop for (name . value) in (numerics-plane-held plane)
         do (numerics-say-about rests "~a is held at ~a~:[~;, from where it would move~]"
-                               (numerics-state-text name) (numerics-short-number number)
+                               (numerics-state-text name) (core-words (list value))
                                (member name (numerics-plane-moving plane) :test #'alike1))))
 
 ;;; The drawing
@@ -143,10 +143,10 @@
   (let ((plane (numerics-portrait-plane portrait)) (rests (numerics-portrait-rests portrait)))
     (algebra-list
      (algebra-field '$equilibria
-                    (apply #'algebra-list (mapcar (lambda (rest) (numerics-rest-record plane rest))
+                    (cons '(mlist simp) (mapcar (lambda (rest) (numerics-rest-record plane rest))
                                                   (numerics-rests-found rests))))
      (algebra-field '$separatrices (length (numerics-portrait-separatrices portrait)))
      (algebra-field '$trajectories (length (numerics-portrait-trajectories portrait)))
-     (algebra-field '$about (apply #'algebra-list (reverse (numerics-rests-about rests))))
+     (algebra-field '$about (cons '(mlist simp) (reverse (numerics-rests-about rests))))
      (algebra-field '$file (numerics-draw picture (numerics-portrait-preamble portrait)
                                           (numerics-portrait-items portrait))))))

@@ -90,9 +90,9 @@
   #-(or win32 windows) (format nil "2>/dev/null ~a" $gnuplot_command))
 
 (defvar *numerics-drawings* 0 "Drawings of this session.")
+(defvar *numerics-drawing* nil "The name of the files of the one that is made.")
 
-(defun numerics-temporary (type)
-  (format nil "dynarch~d_~d~a" (core-process-id) *numerics-drawings* type))
+(defun numerics-temporary (type) (concatenate 'string *numerics-drawing* type))
 
 (defun numerics-temporary-path (type)
   (format nil "~a/~a" $maxima_tempdir (numerics-temporary type)))
@@ -176,9 +176,10 @@
 (defun numerics-draw (picture preamble items)
   "The picture of ITEMS, options and objects of draw, after the lines PREAMBLE; the name of its
 file, or nil."
-  (let ((file (numerics-picture-file picture)))
+  (let* ((file (numerics-picture-file picture))
+         (*numerics-drawing* (format nil "dynarch~d_~d" (core-process-id)
+                                     (incf *numerics-drawings*))))
     (numerics-load-draw)
-    (incf *numerics-drawings*)
     (unwind-protect
          (cond (file (numerics-draw-file file (numerics-picture-kind picture)
                                          *numerics-picture-size* preamble items))

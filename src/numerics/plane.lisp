@@ -7,20 +7,20 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_exchange"
-                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/problem" "numerics/program"
-                "numerics/rate_program" "numerics/rates_problem" "numerics/run"
-                "numerics/run_options"))
+  (core-require "algebra/program_exchange" "algebra/program_nodes" "forms/dynamics" "forms/rates"
+                "numerics/native" "numerics/problem" "numerics/program" "numerics/rate_program"
+                "numerics/rates_problem" "numerics/routine" "numerics/run" "numerics/run_options"))
 
 (defstruct numerics-axis
   name                            ; the state
   (low 0d0 :type double-float) (width 1d0 :type double-float)
-  angle)                          ; whether it is known up to whole turns
+  turns)                          ; whole turns after which all rates are the same, nil for none
 
 (defstruct numerics-plane
   axes                            ; two
   forwards backwards              ; problems
-  held                            ; ((name . number) ..)
+  alone                           ; whether the system has no other states
+  held                            ; ((name . exact value) ..)
   moving)                         ; those of the names held that would move
 
 (core-record numerics-window
@@ -29,21 +29,48 @@
 
 ;;; The window
 
-(defun numerics-read-axis (items rates)
-  (destructuring-bind (name low high) (numerics-items items)
+(defparameter *numerics-largest-end* 1d100)
+(defparameter *numerics-narrowest-axis* 1d-9 "In parts of the larger of its ends.")
+(defparameter *numerics-longest-angle* (* 200 pi) "A hundred turns.")
+
+(defun numerics-check-axis (axis ends)
+  "An error where AXIS with ENDS, numbers as typed, cannot be drawn."
+  (let* ((low (numerics-axis-low axis)) (width (numerics-axis-width axis))
+         (largest (max (abs low) (abs (+ low width)))))
+    (unless (plusp width)
+      (core-error "the axis of ~a ends at ~a, not after its start ~a; give the smaller number first"
+                  (numerics-name-text (numerics-axis-name axis)) (core-words (list (second ends)))
+                  (core-words (list (first ends)))))
+    (unless (and (<= largest *numerics-largest-end*)
+                 (>= largest (/ *numerics-largest-end*))
+                 (> width (* *numerics-narrowest-axis* largest)))
+      (core-error "the axis of ~a from ~a to ~a is too ~:[wide~;narrow~] to be drawn"
+                  (numerics-name-text (numerics-axis-name axis))
+                  (core-cut (core-words (list (first ends))))
+                  (core-cut (core-words (list (second ends)))) (<= largest *numerics-largest-end*)))
+    (when (and (numerics-axis-turns axis) (> width *numerics-longest-angle*))
+      (core-error "the axis of the angle ~a goes through more than 100 turns; take a shorter one"
+                  (numerics-name-text (numerics-axis-name axis))))
+    axis))
+
+(defun numerics-read-axis (items rates period)
+  "PERIOD tells of a state after how many turns all is the same."
+  (destructuring-bind (name . ends) (numerics-items items)
     (unless (member name (forms-rates-states rates) :test #'alike1)
       (numerics-refuse-start-name name (forms-rates-states rates)))
-    (let ((from (numerics-double low "an end of an axis"))
-          (to (numerics-double high "an end of an axis")))
-      (unless (< from to)
-        (core-error "the axis of ~a ends at ~a, not after its start ~a; give the smaller number first"
-                    (numerics-name-text name) (core-words (list high)) (core-words (list low))))
-      (make-numerics-axis :name name :low from :width (- to from)
-                          :angle (and (member name (forms-rates-angles rates) :test #'alike1) t)))))
+    (destructuring-bind (from to)
+        (mapcar (lambda (e) (numerics-double e "an end of an axis")) ends)
+      (numerics-check-axis
+       (make-numerics-axis :name name :low from
+                           :width (numerics-with-masked-traps (- to from))
+                           :turns (and (member name (forms-rates-angles rates) :test #'alike1)
+                                       (funcall period name)))
+       ends))))
 
 (defun numerics-read-axes (window rates)
-  (let ((axes (list (numerics-read-axis (numerics-window-horizontal window) rates)
-                    (numerics-read-axis (numerics-window-vertical window) rates))))
+  (let* ((period (numerics-period-of rates))
+         (axes (list (numerics-read-axis (numerics-window-horizontal window) rates period)
+                     (numerics-read-axis (numerics-window-vertical window) rates period))))
     (when (alike1 (numerics-axis-name (first axes)) (numerics-axis-name (second axes)))
       (core-error "both axes are ~a; take two states"
                   (numerics-name-text (numerics-axis-name (first axes)))))
@@ -58,20 +85,65 @@
   (declare (double-float place))
   (+ (numerics-axis-low axis) (* place (numerics-axis-width axis))))
 
+;;; What the rates truly depend on, at three places: a program may name a state that cancels
+
+(defun numerics-some-places (n)
+  (loop for k from 1 to 3
+        collect (map 'numerics-vector (lambda (i) (+ 0.4d0 (* 0.3d0 (sin (* k i)))))
+                     (loop for i from 1d0 to n collect i))))
+
+(defun numerics-rates-routine (rates names)
+  "The function (moment state out) of the RATES of NAMES."
+  (numerics-routine (make-numerics-program :algebra *algebra-program*
+                                           :names (forms-rates-states rates))
+                    (numerics-rates-of rates names)))
+
+(defun numerics-same-after-p (routine count x place way)
+  "Whether the COUNT values of ROUTINE at X are the same where the state at PLACE is moved on by WAY."
+  (let ((later (copy-seq x)) (here (numerics-zeros count)) (there (numerics-zeros count)))
+    (incf (aref later place) way)
+    (numerics-with-masked-traps
+      (funcall routine (numerics-moment 0d0) x here)
+      (funcall routine (numerics-moment 0d0) later there)
+      (every (lambda (a b) (<= (abs (- a b)) (* 1d-9 (+ 1 (abs a))))) here there))))
+
+;;; Turns: what stands in sin(x/2) is the same after two of them
+
+(defparameter *numerics-most-turns* 12)
+
+(defun numerics-period-of (rates)
+  "The function of a state that gives the number of turns after which all RATES are the same; nil
+where it is not found."
+  (let* ((names (forms-rates-states rates)) (n (length names)) (places (numerics-some-places n))
+         (routine (numerics-rates-routine rates names)))
+    (lambda (name)
+      (let ((place (position name names :test #'alike1)))
+        (loop for turns from 1 to *numerics-most-turns*
+              when (every (lambda (x) (numerics-same-after-p routine n x place (* 2 pi turns)))
+                          places)
+                return turns)))))
+
 ;;; What is held
 
 (defun numerics-other-states (rates names)
-  "The states beside NAMES that their rates depend on, directly."
-  (remove-if-not
-   (lambda (input) (and (member input (forms-rates-states rates) :test #'alike1)
-                        (not (member input names :test #'alike1))))
-   (algebra-inputs-of (numerics-rates-of rates names))))
+  "The states beside NAMES that their rates name, directly: (name . whether they depend on it)."
+  (let* ((states (forms-rates-states rates)) (routine (numerics-rates-routine rates names))
+         (places (numerics-some-places (length states))))
+    (loop for input in (algebra-inputs-of (numerics-rates-of rates names))
+          for place = (position input states :test #'alike1)
+          when (and place (not (member input names :test #'alike1)))
+            collect (cons input
+                          (notevery (lambda (x) (numerics-same-after-p routine (length names) x place
+                                                                       0.3d0))
+                                    places)))))
 
 (defun numerics-rates-of (rates names)
   "The elements of the rates of NAMES."
   (loop for name in names
         collect (nth (position name (forms-rates-states rates) :test #'alike1)
                      (forms-output-list '$rates (forms-rates-outputs rates)))))
+
+(defparameter *numerics-any-value* '((rat simp) 2 5))
 
 (defun numerics-held-value (name names start values rates)
   "The exact value at which NAME is held beside the axes NAMES."
@@ -94,11 +166,15 @@ equations may name velocities and coordinates that are none of the states here."
              (numerics-refuse-start-name name (forms-rates-states rates)))))
 
 (defun numerics-held-values (rates names start values)
-  "((name . element) ..) of what is held beside NAMES."
+  "((name . exact value) ..) of what is held beside NAMES; what cancels has some value."
   (numerics-check-held-names rates start)
-  (loop for name in (numerics-other-states rates names)
-        collect (cons name (numerics-value-element
-                            name (numerics-held-value name names start values rates)))))
+  (loop for (name . counts) in (numerics-other-states rates names)
+        collect (cons name (if counts
+                               (numerics-held-value name names start values rates)
+                               *numerics-any-value*))))
+
+(defun numerics-held-elements (held)
+  (loop for (name . value) in held collect (cons name (numerics-value-element name value))))
 
 ;;; The problems
 
@@ -106,14 +182,15 @@ equations may name velocities and coordinates that are none of the states here."
   (numerics-problem-of (make-numerics-program :algebra *algebra-program* :names names
                                               :rates elements)))
 
-(defun numerics-refuse-no-plane (rates elements)
-  "An error where there is no picture of ELEMENTS, rates of two states, as a plane."
+(defun numerics-refuse-no-plane (rates)
+  "An error where there is no picture of RATES as a plane."
   (when (forms-output-list '$velocities (forms-rates-outputs rates))
     (core-error "the system has constraints, which its states are not free of; choose ~
                  coordinates that need none"))
-  (when (member '$t (algebra-inputs-of elements))
-    (core-error "the equations contain the time: through a point goes more than one trajectory"))
-  (numerics-check-names rates elements))
+  (let ((elements (numerics-rates-of rates (forms-rates-states rates))))
+    (when (member '$t (algebra-inputs-of elements))
+      (core-error "the equations contain the time: through a point goes more than one trajectory"))
+    (numerics-check-names rates elements)))
 
 (defun $numerics_plane (rates values window)
   "The plane of WINDOW of RATES with VALUES, equations."
@@ -122,19 +199,19 @@ equations may name velocities and coordinates that are none of the states here."
 (defun numerics-new-plane (rates values window)
   (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
          (rates (numerics-run-rates rates pairs t))
-         (axes (numerics-read-axes window rates)) (names (mapcar #'numerics-axis-name axes))
-         (held (progn (numerics-refuse-no-plane rates (numerics-rates-of rates names))
-                      (numerics-held-values rates names (numerics-window-start window) values)))
+         (axes (progn (numerics-refuse-no-plane rates) (numerics-read-axes window rates)))
+         (names (mapcar #'numerics-axis-name axes))
+         (held (numerics-held-values rates names (numerics-window-start window) values))
          (others (mapcar #'car held))
          (elements (algebra-exchanged (numerics-rates-of rates (append names others))
-                                      (algebra-exchange-by held)))
+                                      (algebra-exchange-by (numerics-held-elements held))))
          (plane (subseq elements 0 2)))
     (make-numerics-plane
-     :axes axes
-     :held (loop for (name . element) in held
-                 collect (cons name (first (numerics-constant-doubles (list element)))))
-     :moving (loop for name in others
-                   for element in (nthcdr 2 elements) unless (eql element 0) collect name)
+     :axes axes :alone (null (cddr (forms-rates-states rates)))
+     :held (remove *numerics-any-value* held :key #'cdr)
+     :moving (loop for (name . value) in held
+                   for element in (nthcdr 2 elements)
+                   unless (or (eql element 0) (eq value *numerics-any-value*)) collect name)
      :forwards (numerics-plane-problem names plane)
      :backwards (numerics-plane-problem names (mapcar #'algebra-program-negate plane)))))
 

@@ -69,7 +69,7 @@
          (names (numerics-guarded-names rates group))
          (stays (if singular
                     (not (eq solved t))
-                    (and constant (cdr group) (numerics-stays-p group solved)))))
+                    (and constant (cdr group) (numerics-mass-stays-p group solved)))))
     (when (and singular (not stays)) (numerics-fault-group names))
     (when (and numbers (cdr group) (not singular))
       (numerics-guard-group rates (numerics-constant-guards names rows numbers)))
@@ -78,7 +78,7 @@
         (unless constant (numerics-guard-group rates (numerics-group-guards names rows steps))))
       t)))
 
-(defun numerics-stays-p (group solved)
+(defun numerics-mass-stays-p (group solved)
   "Whether the constant regular GROUP stays in M; a long one would fill the program."
   (or (null solved)
       (and (eq solved :regular) (> (length group) *numerics-dense-group*))))

@@ -8,8 +8,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode" "numerics/problem"
-                "numerics/radau" "numerics/step_control" "numerics/taylor"
-                "numerics/trajectories"))
+                "numerics/radau" "numerics/step_control" "numerics/taylor"))
 
 (defstruct numerics-reference
   state  ; the end, double-float numbers; nil where nothing could be had

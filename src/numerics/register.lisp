@@ -22,14 +22,14 @@
 (core-argument :interval "time")
 
 (core-rule "run" :any "numerics/run_options" "numerics_wishes" '("method" $auto) '("points" 101)
-  '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("step" 0)
+  '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("first_step" 0)
   '("estimate" nil) '("conditioning" nil))
 
 (core-public "Simulate"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
            ("equations" "equations" "start" "time"))
   :trailing '("start" "time")
-  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "step" "integrals"
+  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "first_step" "integrals"
              "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces" "constraints"
              "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)

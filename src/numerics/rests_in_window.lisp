@@ -37,19 +37,27 @@
 
 (defun numerics-in-section-p (plane solution)
   "Whether what is held has the values of SOLUTION, or any."
-  (loop for (name . number) in (numerics-plane-held plane)
+  (loop for (name . held) in (numerics-plane-held plane)
         for value = (numerics-rest-value name solution)
         always (or (null value) (not ($constantp value))
-                   (let ((there (numerics-number-or-nil value)))
-                     (and there (< (abs (- there number)) (* 1d-9 (max 1d0 (abs number)))))))))
+                   (let ((there (numerics-number-or-nil value)) (here (numerics-number-or-nil held)))
+                     (and there (< (abs (- there here)) (* 1d-9 (max 1d0 (abs here)))))))))
+
+(defun numerics-solution-held (plane solution)
+  "SOLUTION where those of its free parameters that are what is held have its values."
+  (loop for (name . held) in (numerics-plane-held plane)
+        for value = (numerics-rest-value name solution)
+        do (when (and (symbolp value) value (not ($constantp value)))
+             (setq solution ($substitute held value solution))))
+  solution)
 
 (defun numerics-whole-turns (axis number)
   "The whole turns by which NUMBER comes into the window of AXIS."
-  (let ((place (numerics-place axis number)))
-    (if (numerics-axis-angle axis)
-        (let ((turn (/ (* 2 pi) (numerics-axis-width axis))))
-          (loop for k from (ceiling (- -1d-9 place) turn) to (floor (- 1.000000001d0 place) turn)
-                collect k))
+  (let ((place (numerics-place axis number)) (turns (numerics-axis-turns axis)))
+    (if turns
+        (let ((way (/ (* 2 pi turns) (numerics-axis-width axis))))
+          (loop for k from (ceiling (- -1d-9 place) way) to (floor (- 1.000000001d0 place) way)
+                collect (* k turns)))
         (and (<= -1d-9 place 1.000000001d0) '(0)))))
 
 (defun numerics-turned (value turns) (add value (mul 2 turns '$%pi)))
@@ -71,10 +79,9 @@
           ((some #'null numbers) (if (every #'$constantp values) '() :open))
           (t (loop for k in (numerics-whole-turns (first axes) (first numbers))
                    append (loop for l in (numerics-whole-turns (second axes) (second numbers))
-                                for rest = (numerics-rest-of axes (mapcar #'numerics-turned values
-                                                                          (list k l))
-                                                             verdict)
-                                when (numerics-rest-holds-p plane rest) collect rest))))))
+                                collect (numerics-rest-of axes (mapcar #'numerics-turned values
+                                                                       (list k l))
+                                                          verdict)))))))
 
 (defun numerics-rest-of (axes values verdict)
   (make-numerics-rest :values values :verdict verdict
@@ -82,15 +89,11 @@
                                        (numerics-place axis (numerics-number-or-nil value)))
                                      axes values)))
 
-(defun numerics-rest-holds-p (plane rest)
-  "Half a turn more or less may change what is at rest: sin(x/2)."
-  (apply #'numerics-stands-still-p plane
-         (mapcar #'numerics-at-place (numerics-plane-axes plane) (numerics-rest-place rest))))
-
 (defun numerics-add-solutions (rests plane points)
   "Those of POINTS, lists [solution, verdict], that lie in the section and in the window."
   (dolist (point (numerics-items points))
     (destructuring-bind (solution verdict) (numerics-items point)
+      (setq solution (numerics-solution-held plane solution))
       (when (numerics-in-section-p plane solution)
         (let ((found (numerics-rests-of-solution plane solution verdict)))
           (if (eq found :open)
@@ -101,7 +104,7 @@
 (defun numerics-add-rest (rests rest)
   "REST among RESTS, true where it is new."
   (unless (find-if (lambda (other)
-                     (< (numerics-distance (numerics-rest-place other) (numerics-rest-place rest))
+                     (< (numerics-apart (numerics-rest-place other) (numerics-rest-place rest))
                         1d-7))
                    (numerics-rests-found rests))
     (push rest (numerics-rests-found rests))))
@@ -167,7 +170,7 @@
     (cond ((numerics-plane-moving plane)
            (unless points
              (numerics-say-about rests "equilibria are not marked: ~a" (numerics-reason said))))
-          ((null (numerics-rests-about rests))
+          ((not (or (numerics-rests-about rests) (and points (numerics-plane-alone plane))))
            (numerics-say-zeros rests plane (if points nil said))))
     (setf (numerics-rests-found rests)
           (sort (numerics-rests-found rests) #'numerics-before-p :key #'numerics-rest-place))

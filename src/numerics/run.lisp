@@ -90,8 +90,7 @@ put in, pairs (name . element)."
                  :rates rates :values values :wishes wishes :program program
                  :moment (numerics-moment from)
                  :state (numerics-start-vector rates start)
-                 :problem (numerics-problem-of program :angles (numerics-angle-places rates)
-                                                       :jacobian nil))))
+                 :problem (numerics-problem-of program :jacobian nil))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
             (numerics-simulation-constraints run) (numerics-constraints-of rates program))
@@ -135,7 +134,7 @@ momenta that have one of VALUES, equations, begin with it."
     (make-numerics-controls
      :end end :relative relative :scales scales
      :first-step (let ((step (numerics-wishes-step wishes)))
-                   (unless (eql step 0) (numerics-double step "step"))))))
+                   (unless (eql step 0) (numerics-double step "first_step"))))))
 
 (defun numerics-guard-routine (program)
   (when (numerics-program-guards program)

@@ -8,8 +8,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "numerics/conditioning" "numerics/constrained"
                 "numerics/decimals" "numerics/native" "numerics/observers" "numerics/problem"
-                "numerics/run" "numerics/run_course" "numerics/run_options" "numerics/run_report"
-                "numerics/step_control"))
+                "numerics/run" "numerics/run_course" "numerics/run_options" "numerics/step_control"))
 
 (defun numerics-asked-fields (run)
   "The fields of the report that the wishes of RUN ask for; RUN has come to its end."
@@ -65,11 +64,11 @@ order follows from it."
                                          (numerics-controls-end controls))))
     (when step (setf (numerics-controls-first-step copy) (abs (/ step 2))))
     (values copy
-            (cond (fixed "distance to the run with half the step")
-                  ((< factor 1) (format nil "distance to a run at a tolerance of ~a"
-                                        (numerics-short-number (* factor relative))))
-                  (t (format nil "at most about the distance to a run at a tolerance of ~a"
-                             (numerics-short-number (* factor relative))))))))
+            (if fixed
+                "distance to the run with half the step"
+                (format nil "~:[~;at most about the ~]distance to a run at a tolerance of ~a"
+                        (> factor 1)
+                        (numerics-short-number (* factor relative)))))))
 
 (defun numerics-row-state (rows k)
   (let ((place (* k (numerics-rows-width rows))))

@@ -16,10 +16,7 @@ these.")
 
 (defun numerics-watch-integrals (run)
   "RUN looks at the drifts of those integrals that it can tell."
-  (let* ((rates (numerics-simulation-rates run))
-         (integrals (mapcar #'numerics-settled-integral (forms-rates-integrals rates))))
-    (setf (numerics-simulation-untold run) (forms-rates-untold rates)
-          integrals (remove-if-not (lambda (integral) (numerics-told-p run integral)) integrals))
+  (let ((integrals (numerics-told-integrals run)))
     (when integrals
       (setf (numerics-simulation-drifting run) (mapcar #'first integrals)
             (numerics-simulation-drifts run)
@@ -30,6 +27,13 @@ these.")
                (numerics-integral-routine run (mapcar #'fourth integrals)))
              (length integrals)
              (numerics-simulation-moment run) (numerics-simulation-state run))))))
+
+(defun numerics-told-integrals (run)
+  "Those of the rates of RUN that it can tell."
+  (let ((rates (numerics-simulation-rates run)))
+    (setf (numerics-simulation-untold run) (forms-rates-untold rates))
+    (remove-if-not (lambda (integral) (numerics-told-p run integral))
+                   (mapcar #'numerics-settled-integral (forms-rates-integrals rates)))))
 
 (defun numerics-settled-integral (integral)
   "INTEGRAL without a power that vanishes, or under the name of a balance."
@@ -63,7 +67,9 @@ these.")
 (defun numerics-why-unbalanced (run)
   (let ((method (numerics-wishes-method (numerics-simulation-wishes run)))
         (n (length (numerics-simulation-state run))))
-    (cond ((eq method '$gauss) "not integrated along with this method")
+    (cond ((plusp (numerics-wishes-digits (numerics-simulation-wishes run)))
+           "not integrated along with Taylor series")
+          ((eq method '$gauss) "not integrated along with this method")
           ((and (member method '($auto $dop853)) (> n *numerics-states-of-balances*)
                 (null (numerics-problem-mass (numerics-simulation-problem run))))
            (format nil "with ~d states it would take as long as the run" n)))))

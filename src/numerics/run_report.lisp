@@ -7,18 +7,12 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/decimals"
-                "numerics/drifts" "numerics/problem" "numerics/run" "numerics/run_options"))
+                "numerics/drifts" "numerics/events" "numerics/problem" "numerics/run"
+                "numerics/run_options"))
 
 (defun numerics-rounded-seconds (seconds)
   "SECONDS to the microsecond."
   (numerics-rounded (/ (round (* 1000000 (rational (max 0d0 seconds)))) 1000000)))
-
-(defun numerics-few-digits (x)
-  "X to four digits, as is fit for an error."
-  (if (or (zerop x) (not (numerics-finite-p x)))
-      x
-      (let ((unit (expt 10 (- (floor (log (abs x) 10d0)) 3))))
-        (numerics-rounded (* unit (round (rational x) unit))))))
 
 (defun numerics-status-words (run stop trouble)
   "How RUN ended: the sentence STOP where its time was up, the phrase TROUBLE where it failed."
@@ -28,10 +22,11 @@
          "stopped by an event")
         (t "reached the end")))
 
-(defun numerics-report (run status asked)
-  "What stands beside the rows, as a Maxima list; ASKED: fields that were asked for."
-  (apply #'algebra-list
-         (append (numerics-course-fields run status)
+(defun numerics-report (run course asked)
+  "What stands beside the rows, as a Maxima list, first the fields COURSE; ASKED: fields that were
+asked for."
+  (cons '(mlist simp)
+         (append course
                  (numerics-seconds-fields run)
                  (numerics-drift-fields run)
                  asked
@@ -57,18 +52,18 @@
 
 (defun numerics-named-drifts (run)
   "((name . relative drift) ..)"
-  (when (numerics-simulation-drifts run)
+  (let ((drifts (numerics-simulation-drifts run)))
     (mapcar #'cons (numerics-simulation-drifting run)
-            (numerics-relative-drifts (numerics-simulation-drifts run)))))
+            (if (listp drifts) drifts (numerics-relative-drifts drifts)))))
 
 (defun numerics-drift-fields (run)
   (append
    (list (algebra-field '$drifts
-                        (apply #'algebra-list
+                        (cons '(mlist simp)
                                (loop for (name . drift) in (numerics-named-drifts run)
                                      collect (algebra-field name (numerics-few-digits drift))))))
    (when (numerics-simulation-untold run)
-     (list (algebra-field '$untold (apply #'algebra-list (numerics-simulation-untold run)))))
+     (list (algebra-field '$untold (cons '(mlist simp) (numerics-simulation-untold run)))))
    (when (numerics-simulation-constraints run)
      (list (algebra-field '$residual (numerics-few-digits
                                       (numerics-constraints-largest
@@ -76,15 +71,35 @@
 
 (defun numerics-remark-fields (run)
   (let ((outcome (numerics-simulation-outcome run)))
-    (when (and outcome (numerics-outcome-about outcome))
-      (list (algebra-field '$about (numerics-outcome-about outcome))))))
+    (append (numerics-event-fields run)
+            (when (and outcome (numerics-outcome-about outcome))
+              (list (algebra-field '$about (numerics-outcome-about outcome)))))))
+
+(defun numerics-event-fields (run)
+  "events = [[t, number of the event, 1 upwards, -1 downwards, 0 where it touches 0], ..]"
+  (let ((events (numerics-simulation-events run)))
+    (when events
+      (list (algebra-field
+             '$events
+             (cons '(mlist simp)
+                    (loop for event in (reverse (numerics-events-found events))
+                          collect (algebra-list (aref (numerics-event-moment event) 0)
+                                                (1+ (numerics-event-place event))
+                                                (numerics-event-direction event)))))))))
 
 ;;; A drift that is out of proportion
+
+(defun numerics-accuracy (run)
+  "The relative tolerance of RUN, or what its digits stand for."
+  (let ((digits (numerics-wishes-digits (numerics-simulation-wishes run))))
+    (if (plusp digits)
+        (numerics-rounded (expt 10 (- digits)))
+        (numerics-controls-relative (numerics-simulation-controls run)))))
 
 (defparameter *numerics-worrying-drift* 1000 "So many times the tolerance a drift is worth a line.")
 
 (defun numerics-warn-of-drifts (run)
-  (let ((relative (numerics-controls-relative (numerics-simulation-controls run))))
+  (let ((relative (numerics-accuracy run)))
     (loop for (name . drift) in (numerics-named-drifts run)
           do (when (> drift (* *numerics-worrying-drift* relative))
                (core-warn-later

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates"
+  (core-require "algebra/program_nodes" "forms/rates"
                 "numerics/decimals" "numerics/events" "numerics/observers" "numerics/problem"
                 "numerics/rate_program" "numerics/routine" "numerics/run" "numerics/run_course"
                 "numerics/run_estimate" "numerics/run_integrals" "numerics/run_options"
@@ -39,7 +39,10 @@
          (asked (unless (or stop trouble) (numerics-asked-fields run))))
     (numerics-tell-end run stop trouble)
     (numerics-warn-of-drifts run)
-    (core-report "run" (numerics-report run (numerics-status-words run stop trouble) asked))))
+    (core-report "run" (numerics-report
+                        run
+                        (numerics-course-fields run (numerics-status-words run stop trouble))
+                        asked))))
 
 (defun numerics-set-seconds (run began compiled)
   "The time that the derivation of RUN took since BEGAN, and the compilation of programs when the
@@ -68,14 +71,29 @@ clock of these showed COMPILED."
   "All rows of RUN as a Maxima list; those of events stand at their times."
   (let ((rows (merge 'list (numerics-rows-of (numerics-simulation-rows run))
                      (numerics-event-rows run) #'< :key #'first)))
-    (apply #'algebra-list
+    (cons '(mlist simp)
            (loop for (row next) on rows
                  unless (and next (= (first row) (first next)))
-                   collect (apply #'algebra-list row)))))
+                   collect (cons '(mlist simp) row)))))
+
+(defun numerics-long-p (wishes)
+  "Whether rows of many digits are wanted, and can be had."
+  (unless (eql (numerics-wishes-digits wishes) 0)
+    (core-require "numerics/run_digits")
+    (numerics-check-digits wishes)
+    t))
 
 (defun numerics-mass-wanted (wishes)
   "How far M is divided out: Radau's method takes it as it is."
   (if (eq (numerics-wishes-method wishes) '$radau) nil :regular))
+
+(defun numerics-rows-of-run (run began compiled)
+  "Makes RUN; its rows, as a Maxima list."
+  (numerics-watch-integrals run)
+  (let ((stop (numerics-carry-out run)))
+    (numerics-set-seconds run began compiled)
+    (numerics-tell run stop)
+    (numerics-all-rows run)))
 
 ;;; For Maxima.
 
@@ -83,13 +101,12 @@ clock of these showed COMPILED."
   "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say;
 BEGAN is the time when their derivation began."
   (with-algebra-program
-    (let* ((compiled *numerics-compile-seconds*)
+    (let* ((compiled *numerics-compile-seconds*) (long (numerics-long-p wishes))
            (pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
            (rates (numerics-with-quadratures
                    (numerics-run-rates rates pairs (numerics-mass-wanted wishes)) start))
-           (run (numerics-new-run rates pairs (numerics-start-values rates start values) span
-                                  wishes))
-           (stop (progn (numerics-watch-integrals run) (numerics-carry-out run))))
-      (numerics-set-seconds run began compiled)
-      (numerics-tell run stop)
-      (numerics-all-rows run))))
+           (exact (numerics-start-values rates start values))
+           (run (numerics-new-run rates pairs exact span wishes)))
+      (if long
+          (numerics-long-rows run exact span began)
+          (numerics-rows-of-run run began compiled)))))

@@ -11,7 +11,8 @@
                 "numerics/taylor_numbers" "numerics/taylor_expansion" "numerics/taylor_run"))
 
 (defstruct (numerics-taylor-outcome (:include numerics-outcome))
-  rows) ; lists (time . states) of bigfloats
+  rows       ; lists (time . states) of bigfloats
+  agreement) ; the digits to which two runs agree
 
 (defun numerics-taylor (program start times digits &key scales (most-steps 1000000))
   "The states of PROGRAM, a numerics-program, at TIMES to DIGITS digits of |x_i| + s_i, SCALES being
@@ -82,7 +83,8 @@ ended differently."
      :state (map 'numerics-vector
                  (lambda (x) (numerics-double-of-fixed x (numerics-taylor-bits newer)))
                  (numerics-taylor-run-states newer))
-     :rows (and agreed (numerics-taylor-bigfloat-rows newer times digits))
+     :rows (and agreed (numerics-taylor-bigfloat-rows newer times digits agreement))
+     :agreement agreement
      :about (if status
                 (numerics-taylor-run-about newer)
                 (numerics-taylor-words older newer agreement)))))
@@ -100,9 +102,13 @@ ended differently."
             (order older) (numerics-taylor-run-steps older)
             (order newer) (numerics-taylor-run-steps newer) agreement)))
 
-(defun numerics-taylor-bigfloat-rows (run times digits)
-  (let ((bits (numerics-taylor-bits run)))
+(defun numerics-taylor-bigfloat-rows (run times digits agreement)
+  "What lies beyond the AGREEMENT is no part of a number."
+  (let* ((bits (numerics-taylor-bits run)) (share (expt 10 (floor agreement)))
+         (units (mapcar (lambda (scale) (max 1 (round scale share)))
+                        (numerics-taylor-run-scales run))))
     (loop for row in (reverse (numerics-taylor-run-rows run))
           for time in times
           collect (loop for x in (cons (numerics-fixed time bits) row)
-                        collect (numerics-bigfloat-of-fixed x bits digits)))))
+                        for unit in (cons 1 units)
+                        collect (numerics-bigfloat-of-fixed (* unit (round x unit)) bits digits)))))

@@ -40,9 +40,8 @@
       (numerics-fixed-of-big (cdr (bigfloatp big)) bits))))
 
 (defun numerics-bigfloat-of-fixed (x bits digits)
-  "The bigfloat of DIGITS digits."
-  (with-numerics-bits (numerics-bits-of-digits digits)
-    (bcons (numerics-big-of-fixed x bits))))
+  "The bigfloat next to the decimal of DIGITS digits."
+  (core-decimal-bigfloat (/ x (ash 1 bits)) digits))
 
 (defun numerics-double-of-fixed (x bits)
   (numerics-rounded (/ x (ash 1 bits))))

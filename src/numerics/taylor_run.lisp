@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/taylor_numbers" "numerics/taylor_expansion"))
+  (core-require "numerics/decimals" "numerics/taylor_numbers" "numerics/taylor_expansion"))
 
 (defconstant numerics-taylor-guard-bits 32)
 
@@ -43,9 +43,15 @@
                         do (when (>= (numerics-taylor-run-steps run) most-steps)
                              (return (numerics-taylor-ended run :most-steps nil)))
                            (incf (numerics-taylor-run-steps run))
+                           (numerics-taylor-progress run)
                            (setq scale (numerics-taylor-step run scale))))))
     (when fault (numerics-taylor-ended run :not-finite (format nil "there is ~a" fault)))
     run))
+
+(defun numerics-taylor-progress (run)
+  (core-progress "~d digits, t = ~a" (numerics-taylor-run-digits run)
+                 (numerics-short-number (numerics-double-of-fixed (numerics-taylor-run-moment run)
+                                                                  (numerics-taylor-bits run)))))
 
 (defun numerics-taylor-ended (run status about)
   (setf (numerics-taylor-run-status run) status

@@ -9,8 +9,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/automatic" "numerics/plane" "numerics/problem"))
 
-(defparameter *numerics-curve-length* 12d0 "Windows that a trajectory winds through in one direction.")
-(defparameter *numerics-curve-spacing* 0.004d0 "Points of a curve that are kept.")
+(defparameter *numerics-curve-length* 30d0 "Windows that a trajectory winds through in one direction.")
+(defparameter *numerics-curve-spacing* 0.006d0 "Of the points of a curve.")
 (defparameter *numerics-curve-margin* 0.02d0 "How far beyond the window a curve goes.")
 (defparameter *numerics-curve-steps* 20000)
 (defparameter *numerics-near* 2d-4 "Curves that come closer to their start are closed.")
@@ -35,7 +35,7 @@
   (steps 0)
   end)                      ; why it ended, a keyword
 
-(defun numerics-distance (place other)
+(defun numerics-apart (place other)
   (destructuring-bind ((u v) (s z)) (list place other)
     (sqrt (+ (expt (- u s) 2) (expt (- v z) 2)))))
 
@@ -48,7 +48,7 @@
     (let* ((du (- c a)) (dv (- d b)) (square (+ (* du du) (* dv dv)))
            (share (if (zerop square) 0d0 (/ (+ (* (- u a) du) (* (- v b) dv)) square))))
       (and (<= 0 share 1)
-           (< (numerics-distance point (list (+ a (* share du)) (+ b (* share dv))))
+           (< (numerics-apart point (list (+ a (* share du)) (+ b (* share dv))))
               *numerics-near*)))))
 
 (defun numerics-keep-point (trace place)
@@ -61,7 +61,7 @@
               (numerics-passes-p (numerics-trace-start trace) from to))
          :closed)
         ((and (> (numerics-trace-length trace) (* 2 *numerics-at-rest*))
-              (some (lambda (rest) (< (numerics-distance rest to) *numerics-at-rest*))
+              (some (lambda (rest) (< (numerics-apart rest to) *numerics-at-rest*))
                     (numerics-trace-rests trace)))
          :rest)
         ((numerics-crowded-p trace from to) :crowded)
@@ -86,15 +86,15 @@
 (defun numerics-see-place (trace place)
   "TRACE has come to PLACE; why it ends there, or nil."
   (let ((from (numerics-trace-last trace)))
-    (incf (numerics-trace-length trace) (numerics-distance from place))
+    (incf (numerics-trace-length trace) (numerics-apart from place))
     (setf (numerics-trace-last trace) place
           (numerics-trace-end trace) (numerics-end-of-trace trace from place))
     (cond ((eq (numerics-trace-end trace) :closed)
            (numerics-keep-point trace (numerics-trace-start trace)))
           ((or (numerics-trace-end trace)
-               (> (numerics-distance place (or (first (numerics-trace-points trace))
+               (> (numerics-apart place (or (first (numerics-trace-points trace))
                                                (numerics-trace-start trace)))
-                  *numerics-curve-spacing*))
+                  (* 0.5d0 *numerics-curve-spacing*)))
            (numerics-keep-point trace place)))
     (numerics-trace-end trace)))
 
@@ -106,18 +106,24 @@
   (when (zerop (mod (incf (numerics-trace-steps trace)) 100))
     (let ((before (numerics-trace-looked trace)) (now (numerics-trace-last trace)))
       (setf (numerics-trace-looked trace) now)
-      (< (numerics-distance before now) *numerics-near*))))
+      (< (numerics-apart before now) *numerics-near*))))
+
+(defun numerics-pieces (trace step state)
+  "In how many pieces STEP is looked at; STATE is changed."
+  (funcall (numerics-step-interpolate step) 0.5d0 state)
+  (let* ((middle (numerics-place-of trace state))
+         (way (+ (numerics-apart (numerics-trace-last trace) middle)
+                 (numerics-apart middle (numerics-place-of trace (numerics-step-after step))))))
+    (if (< way 1d2) (max 4 (ceiling way *numerics-curve-spacing*)) 4)))
 
 (defun numerics-see-trace (trace step state)
   "An observer's answer to STEP; STATE is changed."
-  (let* ((to (numerics-place-of trace (numerics-step-after step)))
-         (way (numerics-distance (numerics-trace-last trace) to))
-         (pieces (if (< way 1d2) (max 4 (ceiling way (* 0.5d0 *numerics-curve-spacing*))) 4)))
-    (loop for k from 1 to pieces
-          do (funcall (numerics-step-interpolate step) (/ (coerce k 'double-float) pieces) state)
-             (when (numerics-see-place trace (numerics-place-of trace state))
-               (return-from numerics-see-trace :stop)))
-    (when (numerics-stands-p trace) :stop)))
+  (loop with pieces = (numerics-pieces trace step state)
+        for k from 1 to pieces
+        do (funcall (numerics-step-interpolate step) (/ (coerce k 'double-float) pieces) state)
+           (when (numerics-see-place trace (numerics-place-of trace state))
+             (return-from numerics-see-trace :stop)))
+  (when (numerics-stands-p trace) :stop))
 
 (defun numerics-curve-controls (plane speed)
   "Controls of a trajectory that begins with SPEED, in windows per unit of time."
