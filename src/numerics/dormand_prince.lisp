@@ -193,12 +193,21 @@ which RUN ends before it, or nil."
         (:changed (fill (numerics-dopri-low run) 0d0)
                   (numerics-dopri-first-slope run))))))
 
+(defparameter *numerics-most-stiff-steps* 1d6 "That an explicit method alone makes to the end.")
+
 (defun numerics-dopri-stiff-p (run)
-  "Whether 15 steps looked stiff with never 6 others in between, where the controls ask for it."
-  (cond ((not (eq (numerics-controls-looks-for (numerics-dopri-controls run)) :stiffness)) nil)
-        ((numerics-dopri-unstable-p run)
-         (setf (numerics-dopri-calm run) 0)
-         (and (>= (incf (numerics-dopri-stiff run)) 15) :stiff))
-        ((>= (incf (numerics-dopri-calm run)) 6)
-         (setf (numerics-dopri-stiff run) 0)
-         nil)))
+  "Whether 15 steps looked stiff with never 6 others in between, where the controls ask for it: by
+:stiffness, or by :much-stiffness if too many steps are left."
+  (let* ((controls (numerics-dopri-controls run)) (asked (numerics-controls-looks-for controls)))
+    (cond ((null asked) nil)
+          ((numerics-dopri-unstable-p run)
+           (setf (numerics-dopri-calm run) 0)
+           (and (>= (incf (numerics-dopri-stiff run)) 15)
+                (or (eq asked :stiffness)
+                    (> (abs (/ (numerics-time-left controls (numerics-dopri-moment run))
+                               (numerics-dopri-step run)))
+                       *numerics-most-stiff-steps*))
+                :stiff))
+          ((>= (incf (numerics-dopri-calm run)) 6)
+           (setf (numerics-dopri-stiff run) 0)
+           nil))))

@@ -16,13 +16,18 @@
 12; where it is not given, the tolerance chooses."
   (let* ((moment (copy-seq moment)) (state (copy-seq state))
          (stages (/ (or order (numerics-gauss-order controls)) 2))
-         (run (numerics-new-gauss-run problem stages controls))
-         (step (numerics-gauss-fitting-step problem controls moment state stages)))
-    (cond ((realp step)
-           (numerics-gauss-set-step run step)
-           (let ((status (numerics-gauss-steps run controls moment state observer)))
-             (numerics-gauss-outcome status moment state step stages)))
-          (t (numerics-gauss-outcome step moment state 0d0 stages)))))
+         (run (numerics-new-gauss-run problem stages controls)))
+    (multiple-value-bind (step place)
+        (numerics-gauss-fitting-step problem controls moment state stages)
+      (cond (place
+             (let ((outcome (numerics-gauss-outcome step moment state 0d0 stages)))
+               (setf (numerics-outcome-about outcome)
+                     (format nil "~a, near t = ~a where the length of the steps is chosen"
+                             (numerics-outcome-about outcome) (numerics-short-number place)))
+               outcome))
+            (t (numerics-gauss-set-step run step)
+               (let ((status (numerics-gauss-steps run controls moment state observer)))
+                 (numerics-gauss-outcome status moment state step stages)))))))
 
 (defun numerics-gauss-order (controls)
   "The order that reaches the tolerance with the fewest rates, as measured on the double pendulum."
@@ -40,6 +45,9 @@
         (end (numerics-controls-end controls)))
     (setf (numerics-step-interpolate seen)
           (numerics-gauss-dense run seen controls))
+    (when (> (abs (/ (numerics-time-left controls moment) (numerics-gauss-run-step run)))
+             *numerics-hopeless-steps*)
+      (return-from numerics-gauss-steps :too-slow))
     (loop (when (= (aref moment 0) end) (return :end))
           (let ((fault (numerics-gauss-one-step run controls moment seen)))
             (when fault (return fault)))
@@ -76,5 +84,7 @@
             (:not-finite "the rates have no finite value in a step of Gauss' method")
             (:no-convergence
              "the stages of Gauss' method do not converge: too long a step, or a stiff system")
+            (:too-slow (format nil "steps of ~a, all of one length, would be too many"
+                               (numerics-short-number step)))
             (t (format nil "Gauss' method of order ~d, steps of ~a" (* 2 stages)
                        (numerics-short-number step))))))

@@ -16,16 +16,17 @@
   (step 0d0 :type double-float))
 
 (defun numerics-gauss-fitting-step (problem controls moment state stages)
-  "The step from the controls, else from a pilot run; the keyword of what went wrong there."
+  "The step from the controls, else from a pilot run; or the keyword of what went wrong there, and the
+time."
   (let* ((span (- (numerics-controls-end controls) (aref moment 0)))
          (given (numerics-controls-first-step controls)))
     (cond ((= span 0d0) span)
           (given (float-sign span (min (abs given) (abs span))))
-          (t (let ((step (numerics-gauss-pilot
-                          (numerics-new-pilot problem controls moment state stages) span)))
+          (t (let* ((pilot (numerics-new-pilot problem controls moment state stages))
+                    (step (numerics-gauss-pilot pilot span)))
                (if (realp step)
                    (/ span (max 1 (ceiling (- (/ span step) 1d-9))))
-                   step))))))
+                   (values step (aref (numerics-pilot-moment pilot) 0))))))))
 
 (defun numerics-new-pilot (problem controls moment state stages)
   (make-numerics-pilot

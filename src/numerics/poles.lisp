@@ -32,12 +32,13 @@ where there cannot be any. SCALES are those of the states."
                              :state (numerics-zeros n) :slope (numerics-zeros n))))))
 
 (defun numerics-pole-part (poles found)
-  "A part of an observer that calls FOUND with words for what vanishes and ends the run before a step
-over a pole."
+  "A part of an observer that calls FOUND with words for what vanishes, and the time, and ends the run
+before a step over a pole."
   (lambda (step)
     (let ((place (numerics-passed-pole poles step)))
       (when place
-        (funcall found (numerics-element-words (nth place (numerics-poles-elements poles))))
+        (funcall found (numerics-element-words (nth place (numerics-poles-elements poles)))
+                 (numerics-pole-time poles step place))
         (numerics-undo-step step)
         :stop))))
 
@@ -82,19 +83,28 @@ over a pole."
     (values b (let ((product (map 'numerics-vector (lambda (x) (* b x)) slope)))
                 (and (/= b 0d0) (every #'numerics-finite-p product) product)))))
 
+(defun numerics-divisor-zero (poles step place)
+  "The share of STEP where the divisor PLACE vanishes."
+  (numerics-zero-between (lambda (share) (numerics-divisor-at poles step place share)) 0d0 1d0
+                         (numerics-share-tolerance step)))
+
+(defun numerics-pole-time (poles step place)
+  (let ((moment (numerics-poles-moment poles)))
+    (numerics-step-moment step (numerics-divisor-zero poles step place) moment)
+    (aref moment 0)))
+
 (defun numerics-pole-p (poles step place)
   "Whether b X, of the divisor b at PLACE, does not vanish where b does: at the zero of b, as near as
 numbers come, it is compared with that at a small distance."
-  (let* ((tolerance (numerics-share-tolerance step))
-         (share (numerics-zero-between
-                 (lambda (share) (numerics-divisor-at poles step place share)) 0d0 1d0 tolerance)))
+  (let ((tolerance (numerics-share-tolerance step))
+        (share (numerics-divisor-zero poles step place)))
     (multiple-value-bind (near at-near) (numerics-strength-near poles step place share tolerance)
       (multiple-value-bind (far at-far)
           (numerics-greater-strength poles step place
                                      (numerics-shares-about share (sqrt tolerance)))
         (cond ((> (abs near) (abs far)) nil)
               ((and at-near at-far)
-               (numerics-stays-p (abs (/ near far)) at-near
+               (numerics-strength-stays-p (abs (/ near far)) at-near
                                  (numerics-at-least-visible poles step far at-far)))
               (t t))))))
 
@@ -124,7 +134,7 @@ the last place of the time."
          (lambda (p x scale) (max (abs p) (abs (/ (* 1d-6 b (+ (abs x) scale)) length))))
          product (numerics-step-before step) (numerics-poles-scales poles))))
 
-(defun numerics-stays-p (ratio near far)
+(defun numerics-strength-stays-p (ratio near far)
   "Whether a component of NEAR is more than is left of that of FAR when b goes down by RATIO: half its
 square root."
   (loop for a across near

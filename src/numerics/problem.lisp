@@ -85,7 +85,8 @@
   (inspect nil)        ; nil, or (step): before a step of chosen length is accepted, nil, or the share
                        ; of it that may be, and whether that leads over a jump; or a sentence that
                        ; says why the run ends there
-  (looks-for nil)      ; :stiffness (explicit methods), :end-of-stiffness (implicit ones): see auto
+  (looks-for nil)      ; :stiffness, or :much-stiffness, of very many steps (explicit methods),
+                       ; :end-of-stiffness (implicit ones): see auto
   (counts (make-numerics-counts)))
 
 ;;; A step that was accepted, as the observer sees it; it holds during the call only.

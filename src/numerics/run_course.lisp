@@ -5,7 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/rates" "numerics/back_to_constraints" "numerics/drifts" "numerics/events"
+  (core-require "forms/rates" "numerics/back_to_constraints" "numerics/dead_points"
+                "numerics/decimals" "numerics/drifts" "numerics/events"
                 "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
                 "numerics/problem"
                 "numerics/routine" "numerics/run" "numerics/run_options"
@@ -33,11 +34,33 @@
   "The function of the method, with what it needs of the problem."
   (let ((problem (numerics-simulation-problem run))
         (method (numerics-wishes-method (numerics-simulation-wishes run))))
-    (cond ((member method *numerics-implicit-methods*) (numerics-add-jacobian problem))
+    (when (eq method '$dop853)
+      (setf (numerics-controls-looks-for (numerics-simulation-controls run)) :much-stiffness))
+    (cond ((and (eq method '$dlsode) (numerics-simulation-constraints run))
+           (core-error "the steps of dlsode build on each other, and constraints change the state ~
+                        after each; take method = auto"))
+          ((member method *numerics-implicit-methods*)
+           (numerics-add-jacobian problem)
+           (numerics-warn-of-start run))
           ((numerics-problem-mass problem)
            (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is not ~
                         divided out; take method = radau" (core-spelling method))))
     (numerics-method run)))
+
+(defun numerics-warn-of-start (run)
+  "A warning where a derivative of a rate has no finite value at the start, as that of sqrt(x) at 0:
+more than one solution may begin there."
+  (let* ((problem (numerics-simulation-problem run)) (pattern (numerics-problem-pattern problem))
+         (values (numerics-zeros (length (numerics-pattern-rows pattern)))))
+    (numerics-with-masked-traps
+      (funcall (the function (numerics-problem-jacobian problem))
+               (numerics-simulation-moment run) (numerics-simulation-state run) values)
+      (let ((place (position-if-not #'numerics-finite-p values)))
+        (when place
+          (core-warn "at the start the rate of ~a has no finite derivative; more than one solution ~
+                      may begin there"
+                     (numerics-name-text (nth (aref (numerics-pattern-rows pattern) place)
+                                              (numerics-problem-names problem)))))))))
 
 ;;; What looks on
 
@@ -49,6 +72,16 @@
         (setf (numerics-simulation-lost run) lost)
         :stop))))
 
+(defun numerics-run-dead-point-part (run)
+  (numerics-dead-point-part
+   (numerics-new-dead-points (numerics-simulation-constraints run)
+                             (numerics-controls-relative (numerics-simulation-controls run))
+                             (numerics-simulation-moment run) (numerics-simulation-state run))
+   (lambda (time)
+     (setf (numerics-simulation-fault run)
+           (format nil "the constraints depend on each other at about t = ~a: the motion beyond is ~
+                        not determined" (numerics-short-number time))))))
+
 (defun numerics-run-pole-part (run)
   "A part of an observer that stops before a pole, or nil."
   (let* ((rates (numerics-simulation-rates run))
@@ -57,10 +90,11 @@
                  (numerics-problem-rates (numerics-simulation-problem run))
                  (numerics-controls-scales (numerics-simulation-controls run)))))
     (when poles
-      (numerics-pole-part poles (lambda (words)
-                                  (setf (numerics-simulation-fault run)
-                                        (format nil "the right-hand side divides by zero in the ~
-                                                     next step~@[: ~a vanishes~]" words)))))))
+      (numerics-pole-part
+       poles (lambda (words time)
+               (setf (numerics-simulation-fault run)
+                     (format nil "the right-hand side divides by zero at about t = ~a~@[: ~a ~
+                                  vanishes~]" (numerics-short-number time) words)))))))
 
 (defparameter *numerics-cutting-methods* '($auto $dop853 $radau) "Those that inspect a step.")
 
@@ -88,6 +122,7 @@ for others a part of an observer, or nil."
    (remove nil
            (list (and (numerics-simulation-constraints run)
                       (numerics-projection-part (numerics-simulation-constraints run)))
+                 (and (numerics-simulation-constraints run) (numerics-run-dead-point-part run))
                  (and (numerics-simulation-guards run) (numerics-guard-part run))
                  (numerics-run-pole-part run)
                  (numerics-run-switch-part run)
@@ -151,4 +186,6 @@ for others a part of an observer, or nil."
                     (:most-steps "the most steps that were allowed are made")
                     (:too-slow "the steps became too short")
                     (:singular "the matrix of the implicit steps is singular")
+                    (:stiff "the motion is stiff there, and an explicit method would need more than a ~
+                             million steps; take method = radau, or auto")
                     (:sliding "no solution in the ordinary sense goes on there")))))
