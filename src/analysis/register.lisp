@@ -69,15 +69,12 @@
 (core-public "Equilibria"
   :forms '(("equations" "equations" "variables")) :options '("unknowns" "where")
   :kinds *analysis-kinds*)
-(core-rule "Equilibria" *analysis-kinds* "analysis/jumps" "analysis_smooth_equilibria"
-  "solutions_at_rest" *analysis-functions* *analysis-laws*)
-(core-rule "solutions_at_rest" *analysis-states* "analysis/equilibria" "analysis_equilibria"
+(core-rule "Equilibria" *analysis-states* "analysis/jumps" "analysis_smooth_equilibria"
   "state_equations" *analysis-variables* *analysis-unknowns* *analysis-where*
-  *analysis-laws*)
-(core-rule "solutions_at_rest" *analysis-motions* "analysis/equilibria"
-  "analysis_equilibria_motion"
+  *analysis-laws* *analysis-functions*)
+(core-rule "Equilibria" *analysis-motions* "analysis/jumps" "analysis_smooth_equilibria_motion"
   "LagrangeEquations" "coordinates" *analysis-unknowns* *analysis-where*
-  *analysis-laws*)
+  *analysis-laws* *analysis-functions*)
 
 ;;; The motion that is asked about
 
@@ -85,18 +82,23 @@
   *analysis-where* *analysis-laws*)
 (core-rule "special_cases_sought" :any "analysis/motion_records" "analysis_special_cases"
   *analysis-where* *analysis-laws* *analysis-unknowns*)
-(core-rule "named_motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
+(core-rule "undisturbed_motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
-(core-rule "named_motion" *analysis-motions* "analysis/given_solution" "analysis_lagrange_motion"
+(core-rule "undisturbed_motion" *analysis-motions* "analysis/given_solution" "analysis_lagrange_motion"
   "LagrangeEquations" "coordinates" "solution" "special_cases")
-(core-rule "named_routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
+(core-rule "undisturbed_routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
   "special_cases")
-(core-rule "named_hamilton_motion" :any "analysis/first_approximation" "analysis_hamilton_motion"
+(core-rule "undisturbed_hamilton_motion" :any "analysis/first_approximation"
+  "analysis_hamilton_motion"
   "HamiltonEquations" "coordinates" "solution" "special_cases")
-(loop for motion in '("motion" "routh_motion" "hamilton_motion")
-      do (core-rule motion *analysis-kinds* "analysis/jumps" "analysis_smooth_motion"
-           (concatenate 'string "named_" motion) *analysis-functions* *analysis-laws*))
+(core-rule "motion" *analysis-kinds* "analysis/jumps" "analysis_smooth_motion"
+  "undisturbed_motion" *analysis-functions* *analysis-laws*)
+(loop for motion in '("routh_motion" "hamilton_motion")
+      for undisturbed = (concatenate 'string "undisturbed_" motion)
+      do (core-rule motion *analysis-motions* "analysis/jumps" "analysis_smooth_motion"
+           undisturbed *analysis-functions* *analysis-laws*)
+         (core-rule-same-as motion *analysis-states* undisturbed))
 
 (core-rule "functions_derived" *analysis-motions* "analysis/jumps" "analysis_functions_of_motion"
   "Lagrangian" "actions")
