@@ -42,6 +42,18 @@
                   (aref w2 i) (+ (* i21 a) (* i22 b) (* i23 c))
                   (aref w3 i) (+ (* i31 a) (* i32 b) (* i33 c)))))))))
 
+;;; The two systems.
+
+(defun numerics-radau-set-factors (run)
+  "The factors for the step; true where a matrix is singular."
+  (numerics-with-radau (run counts single pair step entries)
+    (numerics-with-radau-numbers (single-root pair-root pair-turn)
+      (setf (numerics-solver-shift single) (/ single-root step)
+            (numerics-solver-shift pair) (/ pair-root step)
+            (numerics-solver-shift-imaginary pair) (/ pair-turn step)))
+    (incf (numerics-counts-factorisations counts) 2)
+    (or (numerics-factor single entries) (numerics-factor pair entries))))
+
 ;;; One iteration.
 
 (defun numerics-radau-stage (run share stage out)
