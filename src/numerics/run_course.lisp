@@ -111,11 +111,7 @@ for others a part of an observer, or nil."
                  (lambda (step) (numerics-inspect-switches switches step)))
            nil)
           (t (numerics-switch-part
-              switches
-              (lambda (words)
-                (setf (numerics-simulation-fault run)
-                      (format nil "the next step would go over a jump or corner of the right-hand ~
-                                   side, where ~a = 0; take method = auto" words))))))))
+              switches (lambda (trouble) (setf (numerics-simulation-fault run) trouble)))))))
 
 (defun numerics-run-observer (run)
   (numerics-observer

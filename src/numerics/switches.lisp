@@ -189,11 +189,21 @@ little more than the way there along X is made, and the next bit along X there."
 (defparameter *numerics-worst-missed* 100d0 "Of the tolerance, in a step that stands.")
 
 (defun numerics-switch-part (switches found)
-  "A part of an observer that calls FOUND with words for what vanishes in a step which misses far more
-than the tolerance, and ends the run before that."
+  "A part of an observer that calls FOUND with a phrase and ends the run before a step that misses far
+more than the tolerance, or beyond which no solution goes on."
   (lambda (step)
-    (let ((zeros (numerics-switch-zeros switches step)))
-      (when (and zeros (> (numerics-missed-in-all switches step zeros) *numerics-worst-missed*))
-        (funcall found (numerics-switch-words switches (second (first zeros))))
+    (let* ((zeros (numerics-switch-zeros switches step))
+           (trouble (and zeros (numerics-switch-trouble switches step zeros))))
+      (when trouble
+        (funcall found trouble)
         (numerics-undo-step step)
         :stop))))
+
+(defun numerics-switch-trouble (switches step zeros)
+  (destructuring-bind (share place) (first zeros)
+    (let ((back (numerics-turned-back switches step share place)))
+      (cond (back (format nil "no solution in the ordinary sense goes on there; ~a" back))
+            ((> (numerics-missed-in-all switches step zeros) *numerics-worst-missed*)
+             (format nil "the next step would go over a jump or corner of the right-hand side, ~
+                          where ~a = 0; take method = auto"
+                     (numerics-switch-words switches place)))))))
