@@ -33,7 +33,7 @@
              "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces" "constraints"
              "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
-(core-rule "derivation_began" :any "numerics/native" "numerics_seconds")
+(core-rule "derivation_began" :any "numerics/native" "numerics_working_seconds")
 (core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"
   *numerics-values* "start" "time" "run")
 

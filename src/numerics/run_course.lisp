@@ -136,7 +136,7 @@ for others a part of an observer, or nil."
   "Makes the RUN; the sentence of the stop where its time was up or the person interrupted it."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
          (began (numerics-seconds)) (compiled *numerics-compile-seconds*) (outcome nil))
-    (setf (numerics-simulation-began run) began)
+    (setf (numerics-simulation-began run) (numerics-working-seconds))
     (multiple-value-bind (value stop)
         (core-within *numerics-share-of-time*
                      (lambda ()

@@ -39,11 +39,12 @@ BEGAN."
          (times (numerics-exact-times (numerics-wishes-points wishes) (numerics-read-span span))))
     (numerics-check-exact-start run start (first times) digits)
     (setf (numerics-simulation-constraints run) nil
-          (numerics-simulation-began run) (numerics-seconds)
+          (numerics-simulation-began run) (numerics-working-seconds)
+          (numerics-simulation-derivation-seconds run) (- (numerics-simulation-began run) began)
           (numerics-simulation-outcome run)
           (numerics-taylor (numerics-simulation-program run) start times digits)
-          (numerics-simulation-seconds run) (- (numerics-seconds) (numerics-simulation-began run))
-          (numerics-simulation-derivation-seconds run) (- (numerics-simulation-began run) began))
+          (numerics-simulation-seconds run) (- (numerics-working-seconds)
+                                               (numerics-simulation-began run)))
     (let ((rows (numerics-bigfloat-rows (numerics-simulation-outcome run) times wishes)))
       (numerics-set-big-drifts run rows)
       (numerics-tell-long run rows)
@@ -109,38 +110,36 @@ many digits, as an archive keeps them."
   (let ((program (numerics-simulation-program run)))
     (numerics-big-routine elements (cons '$t (numerics-program-names program)) digits)))
 
-(defun numerics-exact-residuals (run rows digits)
-  "The largest size of each constraint in ROWS, lists (time . states): rational numbers."
+(defun numerics-exact-residual (run rows digits)
+  "The largest residual of a constraint in ROWS, lists (time . states), a rational number; nil without
+constraints."
   (let ((elements (loop for key in '($positions $velocities)
                         for output = (cdr (assoc key (forms-rates-outputs
                                                       (numerics-simulation-rates run))))
                         when output append (algebra-output-elements output))))
     (when elements
       (let ((function (numerics-big-values run elements digits)))
-        (apply #'mapcar #'max
-               (loop for row in rows
-                     collect (mapcar (lambda (value) (abs (core-bigfloat-rational value)))
-                                     (funcall function row))))))))
+        (loop for row in rows
+              maximize (loop for value in (funcall function row)
+                             maximize (abs (core-bigfloat-rational value))))))))
 
 (defun numerics-check-exact-start (run start time digits)
   "An error where START violates the constraints beyond DIGITS."
-  (let ((residual (reduce #'max (numerics-exact-residuals
-                                 run (list (numerics-big-start (cons time start) (+ digits 10)))
-                                 (+ digits 10))
-                          :initial-value 0)))
-    (when (> residual (expt 10 (- digits)))
+  (let ((residual (numerics-exact-residual
+                   run (list (numerics-big-start (cons time start) (+ digits 10)))
+                   (+ digits 10))))
+    (when (and residual (> residual (expt 10 (- digits))))
       (core-error "the start is off the constraints by ~a; for ~d digits give it exactly, such as ~
                    acos(1/3)"
                   (numerics-short-number (numerics-rounded residual)) digits))))
 
 (defun numerics-residual-fields (run rows)
-  (let ((residuals (and (cdr rows)
-                        (numerics-exact-residuals run (mapcar #'cdr (cdr rows))
-                                            (+ 5 (numerics-wishes-digits
-                                                  (numerics-simulation-wishes run)))))))
-    (when residuals
-      (list (algebra-field '$residual (numerics-few-digits
-                                       (numerics-rounded (reduce #'max residuals))))))))
+  (let ((residual (and (cdr rows)
+                       (numerics-exact-residual run (mapcar #'cdr (cdr rows))
+                                                (+ 5 (numerics-wishes-digits
+                                                      (numerics-simulation-wishes run)))))))
+    (when residual
+      (list (algebra-field '$residual (numerics-few-digits (numerics-rounded residual)))))))
 
 ;;; Drifts, at the rows
 

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "numerics/conditioning" "numerics/constrained"
+  (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/conditioning"
                 "numerics/decimals" "numerics/native" "numerics/observers" "numerics/problem"
                 "numerics/run" "numerics/run_course" "numerics/run_options" "numerics/step_control"))
 
@@ -41,13 +41,19 @@
             (numerics-simulation-drifts other) nil
             (numerics-simulation-outcome other) nil
             (numerics-simulation-constraints other)
-            (numerics-constraints-of (numerics-simulation-rates run)
-                                     (numerics-simulation-program run))
+            (numerics-fresh-constraints (numerics-simulation-constraints run))
             (numerics-simulation-rows other)
             (numerics-wished-rows other (aref (numerics-simulation-moment run) 0)
                                   (numerics-controls-end controls))
             (numerics-simulation-events other) (numerics-wished-events other))
       (values other how))))
+
+(defun numerics-fresh-constraints (constraints)
+  "CONSTRAINTS as they were before a run, with the same places to work in."
+  (when constraints
+    (let ((copy (copy-numerics-constraints constraints)))
+      (setf (numerics-constraints-singular copy) nil (numerics-constraints-largest copy) 0d0)
+      copy)))
 
 (defun numerics-other-controls (run)
   "A step is halved: it may be the only one. The tolerance of a method with one step stays, since the

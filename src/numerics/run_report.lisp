@@ -15,9 +15,9 @@
   (numerics-rounded (/ (round (* 1000000 (rational (max 0d0 seconds)))) 1000000)))
 
 (defun numerics-status-words (run stop trouble)
-  "How RUN ended: the sentence STOP where its time was up, the phrase TROUBLE where it failed."
-  (cond (stop "its time was up")
-        (trouble trouble)
+  "How RUN ended: the sentence STOP where it was stopped, the phrase TROUBLE where it failed."
+  (cond (stop)
+        (trouble)
         ((eq (numerics-outcome-status (numerics-simulation-outcome run)) :stopped)
          "stopped by an event")
         (t "reached the end")))
@@ -26,11 +26,11 @@
   "What stands beside the rows, as a Maxima list, first the fields COURSE; ASKED: fields that were
 asked for."
   (cons '(mlist simp)
-         (append course
-                 (numerics-seconds-fields run)
-                 (numerics-drift-fields run)
-                 asked
-                 (numerics-remark-fields run))))
+        (append course
+                (numerics-seconds-fields run)
+                (numerics-drift-fields run)
+                asked
+                (numerics-remark-fields run))))
 
 (defun numerics-course-fields (run status)
   (let* ((controls (numerics-simulation-controls run)) (counts (numerics-controls-counts controls)))
