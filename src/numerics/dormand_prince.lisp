@@ -58,10 +58,12 @@
 (defun numerics-dopri-limit (run)
   "The status in which RUN ends before its next step, or nil; that step is made to meet the end."
   (let* ((controls (numerics-dopri-controls run)) (counts (numerics-controls-counts controls))
-         (moment (numerics-dopri-moment run)) (smallest (numerics-smallest-step moment))
+         (moment (numerics-dopri-moment run))
+         (smallest (numerics-smallest-step
+                    moment (numerics-problem-timed (numerics-dopri-problem run))))
          (left (numerics-time-left controls moment)) (step (numerics-dopri-step run))
          (most (numerics-controls-most-steps controls)))
-    (cond ((< (abs left) smallest) :end)
+    (cond ((< (abs left) (numerics-smallest-step moment nil)) :end)
           ((< (abs step) smallest)
            (if (numerics-dopri-finite-p run) :smallest-step :not-finite))
           ((and most

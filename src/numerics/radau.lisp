@@ -48,11 +48,12 @@
 
 (defun numerics-radau-limits (run)
   "The status in which RUN ends before its next step, or nil; that step is made to meet the end."
-  (numerics-with-radau (run controls counts moment step)
-    (let ((left (numerics-time-left controls moment)) (smallest (numerics-smallest-step moment))
+  (numerics-with-radau (run problem controls counts moment step)
+    (let ((left (numerics-time-left controls moment))
+          (smallest (numerics-smallest-step moment (numerics-problem-timed problem)))
           (most (numerics-controls-most-steps controls)))
       (setf (numerics-radau-run-last run) (<= (abs left) (* 1.01d0 (abs step))))
-      (cond ((< (abs left) smallest) :end)
+      (cond ((< (abs left) (numerics-smallest-step moment nil)) :end)
             ((< (abs step) smallest) (or (numerics-radau-run-failure run) :smallest-step))
             ((and most (>= (+ (numerics-counts-steps counts) (numerics-counts-rejected counts))
                            most))

@@ -103,8 +103,8 @@ more than one solution may begin there."
 for others a part of an observer, or nil."
   (let* ((controls (numerics-simulation-controls run)) (wishes (numerics-simulation-wishes run))
          (switches (numerics-new-switches
-                    (numerics-simulation-program run)
-                    (numerics-problem-rates (numerics-simulation-problem run)) controls)))
+                    (numerics-simulation-program run) (numerics-simulation-problem run)
+                    controls)))
     (cond ((null switches) nil)
           ((member (numerics-wishes-method wishes) *numerics-cutting-methods*)
            (setf (numerics-controls-inspect controls)

@@ -12,7 +12,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
                 "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
-                "numerics/problem" "numerics/program" "numerics/routine"))
+                "numerics/problem" "numerics/program" "numerics/routine" "numerics/sparse"
+                "numerics/step_control"))
 
 (defun numerics-switch-elements (elements)
   "The arguments of signs and absolute values in ELEMENTS, and the ordinates of angles."
@@ -25,7 +26,7 @@
             (pushnew argument found)))))))
 
 (defstruct numerics-switches
-  elements events rates
+  elements events rates mass timed                    ; the last three of the problem
   scales relative                                     ; those of the controls
   nodes weights                                       ; of a quadrature
   (passed '())                                        ; times of steps over a zero, the last first
@@ -36,8 +37,9 @@
 
 (defparameter *numerics-quadrature-nodes* 5)
 
-(defun numerics-new-switches (program rates controls)
-  "What looks for jumps and corners of the RATES of PROGRAM; nil where there are none."
+(defun numerics-new-switches (program problem controls)
+  "What looks for jumps and corners of the right-hand side of PROBLEM, which PROGRAM poses; nil where
+there are none."
   (with-numerics-program program
     (let ((elements (numerics-switch-elements (numerics-program-rates program)))
           (n (length (numerics-program-names program))))
@@ -45,7 +47,8 @@
         (let ((nodes (numerics-gauss-nodes *numerics-quadrature-nodes* 60))
               (none (mapcar (constantly nil) elements)))
           (make-numerics-switches
-           :elements elements :rates rates
+           :elements elements :rates (numerics-problem-rates problem)
+           :mass (numerics-problem-mass problem) :timed (numerics-problem-timed problem)
            :events (numerics-new-events (numerics-routine program elements) n
                                         (mapcar (constantly 0) elements) none nil)
            :scales (numerics-controls-scales controls)
@@ -89,11 +92,12 @@ that of the sample before nor of the one after: one may be a function of the abs
   (let ((from (numerics-step-from step)) (to (numerics-step-to step)))
     (+ (- (aref to 0) (aref from 0)) (- (aref to 1) (aref from 1)))))
 
-(defun numerics-missed (switches step from to)
-  "What STEP adds between two shares, less the integral of X there, over the tolerance."
+(defun numerics-integral (switches step from to)
+  "That of X along STEP between two shares of it."
   (let ((sum (numerics-switches-sum switches)) (slope (numerics-switches-slope switches))
-        (moment (numerics-switches-moment switches)) (length (* (- to from) (numerics-step-length step))))
-    (replace sum (numerics-step-state switches step from))
+        (moment (numerics-switches-moment switches))
+        (length (* (- to from) (numerics-step-length step))))
+    (fill sum 0d0)
     (loop for node in (numerics-switches-nodes switches)
           for weight in (numerics-switches-weights switches)
           for share = (+ from (* node (- to from)))
@@ -101,10 +105,32 @@ that of the sample before nor of the one after: one may be a function of the abs
              (funcall (the function (numerics-switches-rates switches)) moment
                       (numerics-step-state switches step share) slope)
              (map-into sum (lambda (s x) (+ s (* weight length x))) sum slope))
-    (loop for s across sum
-          for x across (numerics-step-state switches step to)
-          for scale across (numerics-switches-scales switches)
-          maximize (/ (abs (- x s)) (+ (abs x) scale) (numerics-switches-relative switches)))))
+    sum))
+
+(defun numerics-missed (switches step from to)
+  "What STEP adds between two shares, less the integral of X there, over the tolerance."
+  (let* ((integral (numerics-integral switches step from to))
+         (before (copy-seq (numerics-step-state switches step from)))
+         (after (numerics-step-state switches step to))
+         (scales (map 'numerics-vector (lambda (x scale) (+ (abs x) scale)) after
+                      (numerics-switches-scales switches)))
+         (largest 0d0))
+    (loop for s across integral
+          for x across (numerics-times-mass switches (map 'numerics-vector #'- after before) nil)
+          for scale across (numerics-times-mass switches scales t)
+          do (unless (= scale 0d0)
+               (setq largest (max largest (/ (abs (- x s)) scale)))))
+    (/ largest (numerics-switches-relative switches))))
+
+(defun numerics-times-mass (switches vector absolute)
+  "M VECTOR, or with the absolute values of M; an equation without rates gives 0."
+  (let ((mass (numerics-switches-mass switches)))
+    (if mass
+        (let ((values (numerics-matrix-values mass)) (out (numerics-zeros (length vector))))
+          (numerics-multiply (numerics-matrix-pattern mass)
+                             (if absolute (map 'numerics-vector #'abs values) values) vector out)
+          out)
+        vector)))
 
 (defun numerics-missed-in-all (switches step zeros)
   (loop for (from to) on (append '(0d0) (mapcar #'first zeros) '(1d0))
@@ -122,7 +148,14 @@ sentence where no solution goes on."
     (when zeros
       (let ((missed (numerics-missed-in-all switches step zeros)))
         (when (> missed *numerics-most-missed*)
-          (numerics-cut-share switches step (first zeros) (/ 0.1d0 missed)))))))
+          (numerics-cut-share switches step (first zeros)
+                              (max (/ 0.1d0 missed)
+                                   (numerics-shortest-share switches step))))))))
+
+(defun numerics-shortest-share (switches step)
+  "Of STEP, that a method makes."
+  (/ (* 4 (numerics-smallest-step (numerics-step-from step) (numerics-switches-timed switches)))
+     (abs (numerics-step-length step))))
 
 (defun numerics-cut-share (switches step zero short)
   "To half of SHORT before the ZERO, or over it by a step so short that what it misses is no matter."
@@ -141,7 +174,8 @@ sentence where no solution goes on."
 
 (defun numerics-turned-back (switches step share place)
   "A sentence where X points back to the zero at SHARE on its other side: from shortly before it, a
-little more than the way there along X is made, and the next bit along X there."
+little more than the way there along X is made, and the next bit along X there. (Where M is not
+divided out nothing is said.)"
   (let* ((moment (copy-seq (numerics-switches-moment switches))) (small 1d-7)
          (from (max 0d0 (- share small)))
          (state (copy-seq (numerics-step-state switches step from)))
@@ -152,7 +186,8 @@ little more than the way there along X is made, and the next bit along X there."
                           (numerics-argument-at switches place moment state)))
            (after (progn (numerics-go-on switches moment state short)
                          (numerics-argument-at switches place moment state))))
-      (when (and (= (numerics-side beyond) (- (numerics-side before)))
+      (when (and (null (numerics-switches-mass switches))
+                 (= (numerics-side beyond) (- (numerics-side before)))
                  (< (* (- after beyond) (numerics-side (- beyond before)))
                     (* -1d-3 (abs (- beyond before)))))
         (format nil "on both sides of ~a = 0 it leads back to it"
