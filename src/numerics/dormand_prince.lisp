@@ -199,12 +199,12 @@ which RUN ends before it, or nil."
 
 (defun numerics-dopri-stiff-p (run)
   "Whether 15 steps looked stiff with never 6 others in between, where the controls ask for it: by
-:stiffness, or by :much-stiffness if too many steps are left."
+:stiffness, or by :much-stiffness, 1000 steps, and if too many are left."
   (let* ((controls (numerics-dopri-controls run)) (asked (numerics-controls-looks-for controls)))
     (cond ((null asked) nil)
           ((numerics-dopri-unstable-p run)
            (setf (numerics-dopri-calm run) 0)
-           (and (>= (incf (numerics-dopri-stiff run)) 15)
+           (and (>= (incf (numerics-dopri-stiff run)) (if (eq asked :stiffness) 15 1000))
                 (or (eq asked :stiffness)
                     (> (abs (/ (numerics-time-left controls (numerics-dopri-moment run))
                                (numerics-dopri-step run)))

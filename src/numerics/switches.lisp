@@ -27,7 +27,7 @@
 
 (defstruct numerics-switches
   elements events rates mass timed                    ; the last three of the problem
-  scales relative                                     ; those of the controls
+  scales relative end                                 ; those of the controls
   nodes weights                                       ; of a quadrature
   (passed '())                                        ; times of steps over a zero, the last first
   (moment (numerics-zeros 2) :type numerics-vector)
@@ -52,7 +52,7 @@ there are none."
            :events (numerics-new-events (numerics-routine program elements) n
                                         (mapcar (constantly 0) elements) none nil)
            :scales (numerics-controls-scales controls)
-           :relative (numerics-controls-relative controls)
+           :relative (numerics-controls-relative controls) :end (numerics-controls-end controls)
            :nodes (mapcar #'numerics-rounded nodes)
            :weights (mapcar #'numerics-rounded (numerics-gauss-weights nodes))
            :state (numerics-zeros n) :slope (numerics-zeros n) :sum (numerics-zeros n)))))))
@@ -176,8 +176,8 @@ sentence where no solution goes on."
   "A sentence where X points back to the zero at SHARE on its other side: from shortly before it, a
 little more than the way there along X is made, and the next bit along X there. (Where M is not
 divided out nothing is said.)"
-  (let* ((moment (copy-seq (numerics-switches-moment switches))) (small 1d-7)
-         (from (max 0d0 (- share small)))
+  (let* ((moment (copy-seq (numerics-switches-moment switches)))
+         (small (numerics-small-share switches step)) (from (max 0d0 (- share small)))
          (state (copy-seq (numerics-step-state switches step from)))
          (short (* small (numerics-step-length step))))
     (numerics-step-moment step from moment)
@@ -192,6 +192,11 @@ divided out nothing is said.)"
                     (* -1d-3 (abs (- beyond before)))))
         (format nil "on both sides of ~a = 0 it leads back to it"
                 (numerics-switch-words switches place))))))
+
+(defun numerics-small-share (switches step)
+  "Of STEP, but enough to move a state by more than rounding does."
+  (let ((left (- (numerics-switches-end switches) (aref (numerics-step-from step) 0))))
+    (min 0.5d0 (max 1d-7 (abs (/ (* 1d-11 left) (numerics-step-length step)))))))
 
 (defun numerics-argument-at (switches place moment state)
   (let ((values (numerics-events-values (numerics-switches-events switches))))
