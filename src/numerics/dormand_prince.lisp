@@ -58,10 +58,12 @@
 (defun numerics-dopri-limit (run)
   "The status in which RUN ends before its next step, or nil; that step is made to meet the end."
   (let* ((controls (numerics-dopri-controls run)) (counts (numerics-controls-counts controls))
-         (moment (numerics-dopri-moment run)) (smallest (numerics-smallest-step moment))
+         (moment (numerics-dopri-moment run))
+         (smallest (numerics-smallest-step
+                    moment (numerics-problem-timed (numerics-dopri-problem run))))
          (left (numerics-time-left controls moment)) (step (numerics-dopri-step run))
          (most (numerics-controls-most-steps controls)))
-    (cond ((< (abs left) smallest) :end)
+    (cond ((< (abs left) (numerics-smallest-step moment nil)) :end)
           ((< (abs step) smallest)
            (if (numerics-dopri-finite-p run) :smallest-step :not-finite))
           ((and most
@@ -197,12 +199,12 @@ which RUN ends before it, or nil."
 
 (defun numerics-dopri-stiff-p (run)
   "Whether 15 steps looked stiff with never 6 others in between, where the controls ask for it: by
-:stiffness, or by :much-stiffness if too many steps are left."
+:stiffness, or by :much-stiffness, 1000 steps, and if too many are left."
   (let* ((controls (numerics-dopri-controls run)) (asked (numerics-controls-looks-for controls)))
     (cond ((null asked) nil)
           ((numerics-dopri-unstable-p run)
            (setf (numerics-dopri-calm run) 0)
-           (and (>= (incf (numerics-dopri-stiff run)) 15)
+           (and (>= (incf (numerics-dopri-stiff run)) (if (eq asked :stiffness) 15 1000))
                 (or (eq asked :stiffness)
                     (> (abs (/ (numerics-time-left controls (numerics-dopri-moment run))
                                (numerics-dopri-step run)))

@@ -12,6 +12,7 @@
                 "numerics/linear_solver" "numerics/linear_solver_matrix"
                 "numerics/radau_coefficients" "numerics/radau_run"
                 "numerics/radau_start" "numerics/radau_newton" "numerics/radau_control"
+                "numerics/radau_dense"
                 "numerics/radau_stiffness"))
 
 (defun numerics-radau (problem controls moment state observer)
@@ -33,21 +34,9 @@
   (setf (numerics-radau-run-seen run)
         (make-numerics-step :before (numerics-radau-run-before run)
                             :after (numerics-radau-run-after run)
-                            :interpolate (lambda (share out)
-                                           (numerics-radau-between run share out))
+                            :interpolate (numerics-radau-dense-function run)
                             :nodes (numerics-with-radau-numbers (c1 c2 b1 b2)
                                      (list (cons c1 b1) (cons c2 b2) (cons 1d0 (/ 9d0)))))))
-
-(defun numerics-radau-between (run share out)
-  "The state SHARE of the step after its beginning, by the collocation polynomial, into OUT."
-  (declare (double-float share) (type numerics-vector out) (optimize speed))
-  (numerics-with-radau (run before z3 p1 p2 p3)
-    (numerics-with-radau-numbers (c1 c2)
-      (let ((later (- share 1d0)))
-        (dotimes (i (length out) out)
-          (setf (aref out i)
-                (+ (aref before i)
-                   (+ (aref z3 i) (numerics-collocation later p1 p2 p3 i)))))))))
 
 (defun numerics-radau-outcome (run status)
   (make-numerics-outcome :status status :moment (numerics-radau-run-moment run)
@@ -59,11 +48,12 @@
 
 (defun numerics-radau-limits (run)
   "The status in which RUN ends before its next step, or nil; that step is made to meet the end."
-  (numerics-with-radau (run controls counts moment step)
-    (let ((left (numerics-time-left controls moment)) (smallest (numerics-smallest-step moment))
+  (numerics-with-radau (run problem controls counts moment step)
+    (let ((left (numerics-time-left controls moment))
+          (smallest (numerics-smallest-step moment (numerics-problem-timed problem)))
           (most (numerics-controls-most-steps controls)))
       (setf (numerics-radau-run-last run) (<= (abs left) (* 1.01d0 (abs step))))
-      (cond ((< (abs left) smallest) :end)
+      (cond ((< (abs left) (numerics-smallest-step moment nil)) :end)
             ((< (abs step) smallest) (or (numerics-radau-run-failure run) :smallest-step))
             ((and most (>= (+ (numerics-counts-steps counts) (numerics-counts-rejected counts))
                            most))
@@ -98,18 +88,11 @@
              :not-finite))))
 
 (defun numerics-radau-factor (run)
-  (numerics-with-radau (run counts single pair step entries)
-    (numerics-with-radau-numbers (single-root pair-root pair-turn)
-      (setf (numerics-solver-shift single) (/ single-root step)
-            (numerics-solver-shift pair) (/ pair-root step)
-            (numerics-solver-shift-imaginary pair) (/ pair-turn step)))
-    (incf (numerics-counts-factorisations counts) 2)
-    (cond ((or (numerics-factor single entries) (numerics-factor pair entries))
-           (numerics-radau-singular run))
-          ((numerics-radau-turned-p run) (numerics-radau-turned run))
-          (t (setf (numerics-radau-run-factored-step run) step
-                   (numerics-radau-run-singular run) 0)
-             nil))))
+  (cond ((numerics-radau-set-factors run) (numerics-radau-singular run))
+        ((numerics-radau-turned-p run) (numerics-radau-turned run))
+        (t (setf (numerics-radau-run-factored-step run) (numerics-radau-run-step run)
+                 (numerics-radau-run-singular run) 0)
+           nil)))
 
 (defun numerics-radau-singular (run)
   "Five singular matrices in turn end the run."
@@ -196,6 +179,7 @@
   (setf (numerics-radau-run-first run) nil
         (numerics-radau-run-failure run) nil)
   (let ((said (funcall observer (numerics-radau-run-seen run))))
+    (numerics-radau-remember run)
     (replace (numerics-radau-run-before run) (numerics-radau-run-after run))
     (replace (numerics-radau-run-moment run) (numerics-step-to (numerics-radau-run-seen run)))
     (cond ((eq said :stop) :stopped)

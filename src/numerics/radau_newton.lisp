@@ -42,6 +42,18 @@
                   (aref w2 i) (+ (* i21 a) (* i22 b) (* i23 c))
                   (aref w3 i) (+ (* i31 a) (* i32 b) (* i33 c)))))))))
 
+;;; The two systems.
+
+(defun numerics-radau-set-factors (run)
+  "The factors for the step; true where a matrix is singular."
+  (numerics-with-radau (run counts single pair step entries)
+    (numerics-with-radau-numbers (single-root pair-root pair-turn)
+      (setf (numerics-solver-shift single) (/ single-root step)
+            (numerics-solver-shift pair) (/ pair-root step)
+            (numerics-solver-shift-imaginary pair) (/ pair-turn step)))
+    (incf (numerics-counts-factorisations counts) 2)
+    (or (numerics-factor single entries) (numerics-factor pair entries))))
+
 ;;; One iteration.
 
 (defun numerics-radau-stage (run share stage out)
@@ -168,7 +180,17 @@ tolerance, or three of what is expected to remain."
   (numerics-with-radau (run change remaining convergence)
     (if (< convergence 0.99d0)
         (<= (* remaining change) 0.03d0)
-        (and (<= change 0.01d0) (numerics-radau-by-rounding-p run)))))
+        (and (<= change 0.01d0)
+             (or (numerics-radau-by-rounding-p run) (numerics-radau-solved-p run))))))
+
+(defun numerics-radau-solved-p (run)
+  "Whether the stages satisfy their equations to a hundredth of the tolerance, whatever the Jacobian
+makes of the rest; then nothing is added to them. Without M, whose equations may be algebraic."
+  (numerics-with-radau (run mass step weights r1 r2 r3)
+    (when (and (null mass) (numerics-radau-stages run))
+      (numerics-radau-right-sides run)
+      (when (<= (* (abs step) (numerics-weighted-size weights r1 r2 r3)) 0.01d0)
+        (dolist (change (list r1 r2 r3) t) (fill change 0d0))))))
 
 (defun numerics-radau-by-rounding-p (run)
   "Whether the last two changes have no direction in common."

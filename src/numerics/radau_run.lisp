@@ -25,6 +25,7 @@
   r1 r2 r3             ; right sides, then changes of w1, w2, w3
   previous             ; r1 of the iteration before
   p1 p2 p3             ; coefficients of the collocation polynomial of the last accepted step
+  older                ; the state at the second stage of the step before
   point error)
  (step                 ; the step that is tried
   next-step            ; the one after it
@@ -37,6 +38,7 @@
   convergence          ; ratio of the changes of the last iterations
   remaining            ; convergence/(1 - convergence)
   newton-goal          ; where the iteration ends
+  older-step           ; the length of the step before, 0 for none
   resumed              ; the step before a jump made it shorter, or 0
   radius)              ; estimate of the spectral radius of the Jacobian
  problem controls counts
@@ -59,6 +61,7 @@
  (singular 0 :type fixnum)       ; how often in turn the matrices were singular
  (calm 0 :type fixnum)           ; steps in turn with step*radius < 1
  pace
+ inner                 ; a run for a shorter step, nil before it is needed: see radau_dense
  direction             ; of the power iterations for the radius, nil where it is not asked for
  about)
 
@@ -91,7 +94,7 @@
                                          (numerics-zeros n))))))
       (setf (numerics-radau-run-about run)
             (numerics-solver-remark (numerics-radau-run-single run)))
-      (make slope ahead weights z1 z2 z3 w1 w2 w3 r1 r2 r3 previous p1 p2 p3 point error))
+      (make slope ahead weights z1 z2 z3 w1 w2 w3 r1 r2 r3 previous p1 p2 p3 older point error))
     run))
 
 (declaim (inline numerics-radau-limit))
@@ -109,6 +112,7 @@ what is left of it has the same sign for many steps, and adds up in what changes
   (max (/ 2.2d-17 relative) (min 0.03d0 (expt relative 0.6d0))))
 
 (defun numerics-release-radau (run)
+  (when (numerics-radau-run-inner run) (numerics-release-radau (numerics-radau-run-inner run)))
   (numerics-release-solver (numerics-radau-run-single run))
   (numerics-release-solver (numerics-radau-run-pair run)))
 

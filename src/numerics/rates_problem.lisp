@@ -26,6 +26,7 @@ the number of CALLS of the rates that are expected."
                                            :how how :calls calls)
                   :mass (numerics-mass-matrix program)
                   :names (numerics-program-names program)
+                  :timed (numerics-timed-p program)
                   :split (numerics-split program) :program program)))
     (if jacobian
         (numerics-add-jacobian problem :how how)
@@ -53,6 +54,10 @@ the number of CALLS of the rates that are expected."
                        (or (gethash (algebra-node-index element) values)
                            (core-error "the matrix mass depends on the state or the time"))
                        element)))))
+
+(defun numerics-timed-p (program)
+  (some (lambda (node) (and (algebra-input-p node) (eq (algebra-node-left node) '$t)))
+        (algebra-live-nodes (numerics-program-rates program))))
 
 ;;; x = (q, v) with q' = v.
 

@@ -103,19 +103,15 @@ more than one solution may begin there."
 for others a part of an observer, or nil."
   (let* ((controls (numerics-simulation-controls run)) (wishes (numerics-simulation-wishes run))
          (switches (numerics-new-switches
-                    (numerics-simulation-program run)
-                    (numerics-problem-rates (numerics-simulation-problem run)) controls)))
+                    (numerics-simulation-program run) (numerics-simulation-problem run)
+                    controls)))
     (cond ((null switches) nil)
           ((member (numerics-wishes-method wishes) *numerics-cutting-methods*)
            (setf (numerics-controls-inspect controls)
                  (lambda (step) (numerics-inspect-switches switches step)))
            nil)
           (t (numerics-switch-part
-              switches
-              (lambda (words)
-                (setf (numerics-simulation-fault run)
-                      (format nil "the next step would go over a jump or corner of the right-hand ~
-                                   side, where ~a = 0; take method = auto" words))))))))
+              switches (lambda (trouble) (setf (numerics-simulation-fault run) trouble)))))))
 
 (defun numerics-run-observer (run)
   (numerics-observer

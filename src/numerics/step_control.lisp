@@ -21,10 +21,11 @@
   (declare (type numerics-vector moment))
   (- (- (numerics-controls-end controls) (aref moment 0)) (aref moment 1)))
 
-(defun numerics-smallest-step (moment)
-  "No step is shorter: the last places of the two parts of MOMENT."
+(defun numerics-smallest-step (moment timed)
+  "No step is shorter: the last places of the two parts of MOMENT; TIMED: a few of the first, since
+rates that depend on the time see that one alone."
   (declare (type numerics-vector moment))
-  (max 1d-290 (* 1d-31 (abs (aref moment 0)))))
+  (max 1d-290 (* (if timed 1d-15 1d-31) (abs (aref moment 0)))))
 
 (defun numerics-largest-step (controls moment)
   "Of a run from MOMENT: what is given, or a tenth of the span, so that nothing is stepped over

@@ -12,7 +12,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
                 "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
-                "numerics/problem" "numerics/program" "numerics/routine"))
+                "numerics/problem" "numerics/program" "numerics/routine" "numerics/sparse"
+                "numerics/step_control"))
 
 (defun numerics-switch-elements (elements)
   "The arguments of signs and absolute values in ELEMENTS, and the ordinates of angles."
@@ -25,8 +26,8 @@
             (pushnew argument found)))))))
 
 (defstruct numerics-switches
-  elements events rates
-  scales relative                                     ; those of the controls
+  elements events rates mass timed                    ; the last three of the problem
+  scales relative end                                 ; those of the controls
   nodes weights                                       ; of a quadrature
   (passed '())                                        ; times of steps over a zero, the last first
   (moment (numerics-zeros 2) :type numerics-vector)
@@ -36,8 +37,9 @@
 
 (defparameter *numerics-quadrature-nodes* 5)
 
-(defun numerics-new-switches (program rates controls)
-  "What looks for jumps and corners of the RATES of PROGRAM; nil where there are none."
+(defun numerics-new-switches (program problem controls)
+  "What looks for jumps and corners of the right-hand side of PROBLEM, which PROGRAM poses; nil where
+there are none."
   (with-numerics-program program
     (let ((elements (numerics-switch-elements (numerics-program-rates program)))
           (n (length (numerics-program-names program))))
@@ -45,11 +47,12 @@
         (let ((nodes (numerics-gauss-nodes *numerics-quadrature-nodes* 60))
               (none (mapcar (constantly nil) elements)))
           (make-numerics-switches
-           :elements elements :rates rates
+           :elements elements :rates (numerics-problem-rates problem)
+           :mass (numerics-problem-mass problem) :timed (numerics-problem-timed problem)
            :events (numerics-new-events (numerics-routine program elements) n
                                         (mapcar (constantly 0) elements) none nil)
            :scales (numerics-controls-scales controls)
-           :relative (numerics-controls-relative controls)
+           :relative (numerics-controls-relative controls) :end (numerics-controls-end controls)
            :nodes (mapcar #'numerics-rounded nodes)
            :weights (mapcar #'numerics-rounded (numerics-gauss-weights nodes))
            :state (numerics-zeros n) :slope (numerics-zeros n) :sum (numerics-zeros n)))))))
@@ -89,11 +92,12 @@ that of the sample before nor of the one after: one may be a function of the abs
   (let ((from (numerics-step-from step)) (to (numerics-step-to step)))
     (+ (- (aref to 0) (aref from 0)) (- (aref to 1) (aref from 1)))))
 
-(defun numerics-missed (switches step from to)
-  "What STEP adds between two shares, less the integral of X there, over the tolerance."
+(defun numerics-integral (switches step from to)
+  "That of X along STEP between two shares of it."
   (let ((sum (numerics-switches-sum switches)) (slope (numerics-switches-slope switches))
-        (moment (numerics-switches-moment switches)) (length (* (- to from) (numerics-step-length step))))
-    (replace sum (numerics-step-state switches step from))
+        (moment (numerics-switches-moment switches))
+        (length (* (- to from) (numerics-step-length step))))
+    (fill sum 0d0)
     (loop for node in (numerics-switches-nodes switches)
           for weight in (numerics-switches-weights switches)
           for share = (+ from (* node (- to from)))
@@ -101,10 +105,32 @@ that of the sample before nor of the one after: one may be a function of the abs
              (funcall (the function (numerics-switches-rates switches)) moment
                       (numerics-step-state switches step share) slope)
              (map-into sum (lambda (s x) (+ s (* weight length x))) sum slope))
-    (loop for s across sum
-          for x across (numerics-step-state switches step to)
-          for scale across (numerics-switches-scales switches)
-          maximize (/ (abs (- x s)) (+ (abs x) scale) (numerics-switches-relative switches)))))
+    sum))
+
+(defun numerics-missed (switches step from to)
+  "What STEP adds between two shares, less the integral of X there, over the tolerance."
+  (let* ((integral (numerics-integral switches step from to))
+         (before (copy-seq (numerics-step-state switches step from)))
+         (after (numerics-step-state switches step to))
+         (scales (map 'numerics-vector (lambda (x scale) (+ (abs x) scale)) after
+                      (numerics-switches-scales switches)))
+         (largest 0d0))
+    (loop for s across integral
+          for x across (numerics-times-mass switches (map 'numerics-vector #'- after before) nil)
+          for scale across (numerics-times-mass switches scales t)
+          do (unless (= scale 0d0)
+               (setq largest (max largest (/ (abs (- x s)) scale)))))
+    (/ largest (numerics-switches-relative switches))))
+
+(defun numerics-times-mass (switches vector absolute)
+  "M VECTOR, or with the absolute values of M; an equation without rates gives 0."
+  (let ((mass (numerics-switches-mass switches)))
+    (if mass
+        (let ((values (numerics-matrix-values mass)) (out (numerics-zeros (length vector))))
+          (numerics-multiply (numerics-matrix-pattern mass)
+                             (if absolute (map 'numerics-vector #'abs values) values) vector out)
+          out)
+        vector)))
 
 (defun numerics-missed-in-all (switches step zeros)
   (loop for (from to) on (append '(0d0) (mapcar #'first zeros) '(1d0))
@@ -122,7 +148,14 @@ sentence where no solution goes on."
     (when zeros
       (let ((missed (numerics-missed-in-all switches step zeros)))
         (when (> missed *numerics-most-missed*)
-          (numerics-cut-share switches step (first zeros) (/ 0.1d0 missed)))))))
+          (numerics-cut-share switches step (first zeros)
+                              (max (/ 0.1d0 missed)
+                                   (numerics-shortest-share switches step))))))))
+
+(defun numerics-shortest-share (switches step)
+  "Of STEP, that a method makes."
+  (/ (* 4 (numerics-smallest-step (numerics-step-from step) (numerics-switches-timed switches)))
+     (abs (numerics-step-length step))))
 
 (defun numerics-cut-share (switches step zero short)
   "To half of SHORT before the ZERO, or over it by a step so short that what it misses is no matter."
@@ -141,9 +174,10 @@ sentence where no solution goes on."
 
 (defun numerics-turned-back (switches step share place)
   "A sentence where X points back to the zero at SHARE on its other side: from shortly before it, a
-little more than the way there along X is made, and the next bit along X there."
-  (let* ((moment (copy-seq (numerics-switches-moment switches))) (small 1d-7)
-         (from (max 0d0 (- share small)))
+little more than the way there along X is made, and the next bit along X there. (Where M is not
+divided out nothing is said.)"
+  (let* ((moment (copy-seq (numerics-switches-moment switches)))
+         (small (numerics-small-share switches step)) (from (max 0d0 (- share small)))
          (state (copy-seq (numerics-step-state switches step from)))
          (short (* small (numerics-step-length step))))
     (numerics-step-moment step from moment)
@@ -152,11 +186,17 @@ little more than the way there along X is made, and the next bit along X there."
                           (numerics-argument-at switches place moment state)))
            (after (progn (numerics-go-on switches moment state short)
                          (numerics-argument-at switches place moment state))))
-      (when (and (= (numerics-side beyond) (- (numerics-side before)))
+      (when (and (null (numerics-switches-mass switches))
+                 (= (numerics-side beyond) (- (numerics-side before)))
                  (< (* (- after beyond) (numerics-side (- beyond before)))
                     (* -1d-3 (abs (- beyond before)))))
         (format nil "on both sides of ~a = 0 it leads back to it"
                 (numerics-switch-words switches place))))))
+
+(defun numerics-small-share (switches step)
+  "Of STEP, but enough to move a state by more than rounding does."
+  (let ((left (- (numerics-switches-end switches) (aref (numerics-step-from step) 0))))
+    (min 0.5d0 (max 1d-7 (abs (/ (* 1d-11 left) (numerics-step-length step)))))))
 
 (defun numerics-argument-at (switches place moment state)
   (let ((values (numerics-events-values (numerics-switches-events switches))))
@@ -189,11 +229,21 @@ little more than the way there along X is made, and the next bit along X there."
 (defparameter *numerics-worst-missed* 100d0 "Of the tolerance, in a step that stands.")
 
 (defun numerics-switch-part (switches found)
-  "A part of an observer that calls FOUND with words for what vanishes in a step which misses far more
-than the tolerance, and ends the run before that."
+  "A part of an observer that calls FOUND with a phrase and ends the run before a step that misses far
+more than the tolerance, or beyond which no solution goes on."
   (lambda (step)
-    (let ((zeros (numerics-switch-zeros switches step)))
-      (when (and zeros (> (numerics-missed-in-all switches step zeros) *numerics-worst-missed*))
-        (funcall found (numerics-switch-words switches (second (first zeros))))
+    (let* ((zeros (numerics-switch-zeros switches step))
+           (trouble (and zeros (numerics-switch-trouble switches step zeros))))
+      (when trouble
+        (funcall found trouble)
         (numerics-undo-step step)
         :stop))))
+
+(defun numerics-switch-trouble (switches step zeros)
+  (destructuring-bind (share place) (first zeros)
+    (let ((back (numerics-turned-back switches step share place)))
+      (cond (back (format nil "no solution in the ordinary sense goes on there; ~a" back))
+            ((> (numerics-missed-in-all switches step zeros) *numerics-worst-missed*)
+             (format nil "the next step would go over a jump or corner of the right-hand side, ~
+                          where ~a = 0; take method = auto"
+                     (numerics-switch-words switches place)))))))

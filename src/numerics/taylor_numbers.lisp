@@ -53,19 +53,27 @@
   "How many bits X has before its point."
   (max 0 (- (integer-length x) bits)))
 
+(defparameter *numerics-most-whole-bits* 12 "Of exponents: exp(2^12) has 1779 digits before its point.")
+
 (defun numerics-extra-bits (operation bits x y)
   "How many more bits than BITS the value of OPERATION takes."
   (flet ((whole (x)
-           (if (> (numerics-whole-bits x bits) 20)
+           (if (> (numerics-whole-bits x bits) *numerics-most-whole-bits*)
                (numerics-series-fault (format nil "a number too large for ~(~a~)" operation))
                (1+ (ash (abs x) (- bits))))))
     (case operation
-      ((:exponential :hyperbolic-sine :hyperbolic-cosine) (* 2 (whole x)))
+      (:exponential (if (minusp x) 0 (* 2 (whole x))))
+      ((:hyperbolic-sine :hyperbolic-cosine) (* 2 (whole x)))
       ((:arcsine :arccosine) bits)
       (:power (* (whole y) (+ 2 (abs (- (integer-length x) bits)))))
       (t (numerics-whole-bits x bits)))))
 
 (defun numerics-fixed-function (operation bits x &optional (y 0))
+  (if (and (eq operation :exponential) (< x (- (ash bits bits))))
+      0                                   ; less than 2^-bits
+      (numerics-big-fixed-function operation bits x y)))
+
+(defun numerics-big-fixed-function (operation bits x y)
   (with-numerics-bits (+ bits 32 (numerics-extra-bits operation bits x y))
     (let ((x (numerics-big-of-fixed x bits)) (y (numerics-big-of-fixed y bits)))
       (numerics-fixed-of-big
