@@ -100,8 +100,9 @@
            undisturbed *analysis-functions* *analysis-laws*)
          (core-rule-same-as motion *analysis-states* undisturbed))
 
-(core-rule "functions_derived" *analysis-motions* "analysis/jumps" "analysis_functions_of_motion"
-  "Lagrangian" "actions")
+(dolist (given '(nil :file))
+  (core-rule-given given "functions_derived" (if given *analysis-motions* '("lagrangian"))
+    "analysis/jumps" "analysis_functions_of_motion" "Lagrangian" "actions"))
 (core-rule-given "hamiltonian" "functions_derived" '("lagrangian") "analysis/jumps"
   "analysis_function_alone" "hamiltonian")
 (core-rule "functions_derived" '("poisson") "analysis/jumps" "analysis_function_alone"

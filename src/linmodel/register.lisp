@@ -17,6 +17,7 @@
            '("form" $auto))
 (core-rule "forces" '("mechanical") "linmodel/loads" "linmodel_forces" "scene"
            '("form" $auto))
+(core-rule "functions_derived" '("mechanical") "linmodel/scene" "linmodel_formulas" "scene")
 (core-rule "momenta" '("mechanical") "linmodel/rotors" "linmodel_momenta" "scene")
 (core-rule "given_keys" '("mechanical") "linmodel/scene_records" "linmodel_scene_given" "scene")
 (core-rule-field "constraints" '("mechanical") "given_keys" "constraints")

@@ -20,6 +20,7 @@
   moment state)
 
 (defun numerics-new-dead-points (constraints relative moment state)
+  (numerics-make-room constraints state)
   (let ((dead (make-numerics-dead-points
                :constraints constraints :least (min 1d-3 (* 1d3 relative))
                :moment (copy-seq moment) :state (copy-seq state)

@@ -11,7 +11,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
-                "numerics/divisors" "numerics/events" "numerics/gauss_coefficients"
+                "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
                 "numerics/problem" "numerics/program" "numerics/routine"))
 
 (defun numerics-switch-elements (elements)
