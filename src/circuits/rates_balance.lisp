@@ -7,10 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "circuits/elements"
-                "circuits/rates_by_branches" "circuits/rates_judge" "forms/agreement"
-                "forms/dynamics" "forms/fixed" "forms/judge" "forms/program_judge"
-                "forms/rates_integrals" "forms/value"))
+  (core-require "algebra/program_nodes" "circuits/elements" "circuits/rates_by_branches"
+                "forms/dynamics" "forms/rates_integrals"))
 
 (defun circuits-balance (run states)
   "Two values: the integral of RUN as forms-rates has it, and nil; or nil and why it is not given."
