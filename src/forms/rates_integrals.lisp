@@ -86,7 +86,9 @@
                                  (forms-program-terms-damping terms))
                          (mapcar #'forms-bond-row (forms-dynamics-bonds dynamics))))
          (found (catch 'forms-no-value
-                  (forms-program-values (apply #'append momenta columns) point))))
+                  (forms-program-values (loop for column in (cons momenta columns)
+                                              append column)
+                                        point))))
     (loop with n = (length momenta)
           for k below n
           collect (and found

@@ -86,11 +86,11 @@ of so many digits, as an archive keeps them."
   (let ((points (numerics-wishes-points wishes)) (digits (numerics-wishes-digits wishes)))
     (flet ((number (x) (core-decimal-bigfloat (core-bigfloat-rational x) digits)))
       (cons '(mlist simp)
-             (loop for row in (numerics-taylor-outcome-rows outcome)
-                   for (time . later) on times
-                   when (or (integerp points) (null later)
-                            (member time (cdr points) :test #'alike1))
-                     collect (cons '(mlist simp) (mapcar #'number row)))))))
+            (loop for row in (numerics-taylor-outcome-rows outcome)
+                  for (time . later) on times
+                  when (or (integerp points) (null later)
+                           (member time (cdr points) :test #'alike1))
+                    collect (cons '(mlist simp) (mapcar #'number row)))))))
 
 (defun numerics-trouble-of-series (outcome)
   (unless (eq (numerics-outcome-status outcome) :end)
@@ -132,7 +132,7 @@ without constraints."
     (when (and residual (> residual (expt 10 (- digits))))
       (core-error "the start is off the constraints by ~a; for ~d digits give it exactly, such as ~
                    acos(1/3)"
-                  (numerics-short-number (numerics-rounded residual)) digits))))
+                  (numerics-short-number (numerics-small-double residual)) digits))))
 
 (defun numerics-residual-fields (run rows)
   (let ((residual (and (cdr rows)
@@ -140,7 +140,7 @@ without constraints."
                                                 (+ 5 (numerics-wishes-digits
                                                       (numerics-simulation-wishes run)))))))
     (when residual
-      (list (algebra-field '$residual (numerics-few-digits (numerics-rounded residual)))))))
+      (list (algebra-field '$residual (numerics-few-digits (numerics-small-double residual)))))))
 
 ;;; Drifts, at the rows
 
@@ -165,4 +165,4 @@ without constraints."
         for first = (nth k (first table))
         for drift = (loop for row in table maximize (abs (- (nth k row) first)))
         for size = (max (abs first) (loop for row in table maximize (abs (nth (+ k count) row))))
-        collect (numerics-rounded (if (zerop size) drift (/ drift size)))))
+        collect (numerics-small-double (if (zerop size) drift (/ drift size)))))
