@@ -61,8 +61,7 @@
   (destructuring-bind (numbers outside apart inside expression) plan
     (list* '* (if (integerp inside)
                   (algebra-root inside degree scan)
-                  (algebra-find-or-make-root expression degree
-                                             (lambda () (funcall scan inside))))
+                  (algebra-written-root expression inside degree scan))
            (append (loop for (f . power) in apart
                          collect (list '^ (algebra-root-kernel f degree scan) power))
                    (loop for (f . power) in outside
@@ -133,12 +132,14 @@ of numbers, whole powers, roots of their own; the rest under one root, and that 
   (algebra-find-or-make-root expression 2 (lambda () (list '^ (funcall scan (cadr expression)) 2))))
 
 (defun algebra-root-kernel (radicand degree scan)
-  "The kernel, or the skeleton of a root that Maxima takes apart, sqrt(x*y) where x is positive: it
-must not stand beside sqrt(x) as something of its own."
-  (let ((root (power radicand (list '(rat simp) 1 degree))))
-    (if (mtimesp root)
-        (funcall scan root)
-        (algebra-find-or-make-root root degree (lambda () (funcall scan radicand))))))
+  (algebra-written-root (power radicand (list '(rat simp) 1 degree)) radicand degree scan))
+
+(defun algebra-written-root (root radicand degree scan)
+  "The kernel of ROOT of RADICAND, or the skeleton of a root that Maxima takes apart, sqrt(x*y) where
+x is positive: it must not stand beside sqrt(x) as something of its own."
+  (if (mtimesp root)
+      (funcall scan root)
+      (algebra-find-or-make-root root degree (lambda () (funcall scan radicand)))))
 
 (defun algebra-find-or-make-root (expression degree radicand)
   (or (algebra-find-opaque expression)
