@@ -45,8 +45,8 @@
                                            (algebra-program-multiply (1+ (expt 10 -20))
                                                                      (cdr (car (last direction)))))))
                        left pushed point)))
-    ("circuit" circuits-check-balance
-               ,(lambda (run mass right integral) (list run mass right (test-wrong-integral integral 3))))
+    ("circuit" circuits-check-rates
+               ,(lambda (run mass right balance) (list run mass right (test-wrong-integral balance 3))))
     ("values" numerics-check-exchange
               ,(lambda (rates new values)
                  (let ((wrong (copy-forms-rates new)))

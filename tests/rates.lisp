@@ -18,7 +18,7 @@
           (list (loop for (j . element) in (car (last rows)) collect (cons j (car (test-wrong-list (list element))))))))
 
 (defparameter *test-wrong-checks*
-  `((circuits-check-rates ,(lambda (run mass right) (list run mass (test-wrong-list right))))
+  `((circuits-check-rates ,(lambda (run mass right balance) (list run mass (test-wrong-list right) balance)))
     (forms-check-elements ,(lambda (elements expressions) (list (test-wrong-list elements) expressions)))
     (forms-check-hamilton ,(lambda (dynamics names motion) (list dynamics names (test-wrong-motion motion))))
     (forms-check-canonical ,(lambda (function forces names task motion)
@@ -40,6 +40,6 @@
   ;; test_wrong("name of a check", e): the value of e while what that check is given is wrong
   (destructuring-bind (name e) (cdr form)
     (let ((row (if (string= name "mass")
-                   (list 'circuits-check-rates (lambda (run mass right) (list run (test-wrong-mass mass) right)))
+                   (list 'circuits-check-rates (lambda (run mass right balance) (list run (test-wrong-mass mass) right balance)))
                    (find name *test-wrong-checks* :test #'string-equal :key (lambda (row) (symbol-name (car row)))))))
       (test-with-wrong (first row) (second row) (lambda () (meval e))))))

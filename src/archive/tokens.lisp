@@ -151,8 +151,8 @@ token that the reader stands on."
         (archive-maxima-number number))))
 
 (defun archive-read-exponent (reader position)
-  "Three values: the decimal exponent that begins at POSITION (0 if there is none), where it ends, and
-whether it is one of a long decimal, 1.50b0, which tables of numerical results may hold."
+  "Three values: the decimal exponent that begins at POSITION (0 if there is none), where it ends,
+and whether it is one of a long decimal, 1.50b0, which tables of numerical results may hold."
   (let* ((text (reader-text reader)) (end (reader-end reader))
          (long (and (reader-doubles reader) (< position end) (char= (char text position) #\b))))
     (if (not (or long (and (< position end) (char-equal (char text position) #\e))))

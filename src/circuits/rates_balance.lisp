@@ -7,10 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "circuits/elements"
-                "circuits/rates_by_branches" "circuits/rates_judge" "forms/agreement"
-                "forms/dynamics" "forms/fixed" "forms/judge" "forms/program_judge"
-                "forms/rates_integrals" "forms/value"))
+  (core-require "algebra/program_nodes" "circuits/elements" "circuits/rates_by_branches"
+                "forms/dynamics" "forms/rates_integrals"))
 
 (defun circuits-balance (run states)
   "Two values: the integral of RUN as forms-rates has it, and nil; or nil and why it is not given."
@@ -50,8 +48,8 @@
                (unless (circuits-flow run branch)
                  (return (format nil "the power of ~a depends on rates" label))))))
 
-;;; What a branch takes that stores nothing. Its current or voltage may still be unknown: of a source it
-;;; is a sum over its cut or loop.
+;;; What a branch takes that stores nothing. Its current or voltage may still be unknown: of a source
+;;; it is a sum over its cut or loop.
 
 (defun circuits-flow (run branch)
   "(voltage . current) of BRANCH in the direction of the states, nil where they are not known."
@@ -75,27 +73,3 @@
           unless (circuits-storing-p branch)
             collect (destructuring-bind (voltage . current) (circuits-flow run branch)
                       (algebra-program-multiply voltage current))))))
-
-;;; The check: for random rates the rate of what is stored, what M r - X leaves included, is what the
-;;; other branches feed.
-
-(defun circuits-check-balance (run mass right integral)
-  (destructuring-bind (value power) (list (second integral) (fourth integral))
-    (let ((point (forms-new-point t)))
-      (forms-verdict-of
-       "balance of energy at a random point"
-       (list (or (catch 'forms-no-value
-                   (let ((trial (circuits-new-trial run point mass right)))
-                     (cons (first (forms-slopes-along (list (circuits-value-function value)) point
-                                                      (circuits-direction trial)))
-                           (- (+ (first (forms-program-values (list power) point))
-                                 (circuits-left-power trial))))))
-                 '(nil)))
-       point))))
-
-(defun circuits-left-power (trial)
-  (loop for k in (circuits-own-branches (circuits-trial-run trial))
-        sum (forms-fixed-times (circuits-left-in trial k)
-                               (forms-variable-value
-                                (circuits-state-name (circuits-trial-run trial) k)
-                                (circuits-trial-point trial)))))

@@ -18,13 +18,16 @@
   left        ; number of a branch -> what X - M r leaves in it
   currents voltages) ; vectors of numbers: those of the branches, voltages along their arrows
 
-(defun circuits-check-rates (run mass right)
+(defun circuits-check-rates (run mass right balance)
+  "BALANCE: the integral of energy, or nil."
   (let* ((point (forms-new-point t))
          (pairs (catch 'forms-no-value
                   (let ((trial (circuits-new-trial run point mass right)))
                     (circuits-set-flows trial)
-                    (append (circuits-law-pairs trial) (circuits-kirchhoff-pairs trial))))))
-    (forms-verdict-of "Kirchhoff's laws and the laws of the elements at a random point"
+                    (append (circuits-law-pairs trial) (circuits-kirchhoff-pairs trial)
+                            (and balance (circuits-balance-pairs trial balance)))))))
+    (forms-verdict-of (format nil "Kirchhoff's laws~:[~;, the balance of energy~] and the laws of ~
+                                   the elements at a random point" balance)
                       (or pairs '((nil))) point)))
 
 (defun circuits-own-branches (run)
@@ -189,6 +192,23 @@
                           ends (list-of (circuits-trial-currents trial))))
                   (zeros ($circuits_voltage_gaps
                           ends (list-of (circuits-trial-voltages trial)))))))))
+
+;;; What is stored grows by what M r - X leaves, and by what the other branches feed.
+
+(defun circuits-balance-pairs (trial balance)
+  (destructuring-bind (value power) (list (second balance) (fourth balance))
+    (list (cons (first (forms-slopes-along (list (circuits-value-function value))
+                                           (circuits-trial-point trial)
+                                           (circuits-direction trial)))
+                (- (+ (first (forms-program-values (list power) (circuits-trial-point trial)))
+                      (circuits-left-power trial)))))))
+
+(defun circuits-left-power (trial)
+  (loop for k in (circuits-own-branches (circuits-trial-run trial))
+        sum (forms-fixed-times (circuits-left-in trial k)
+                               (forms-variable-value
+                                (circuits-state-name (circuits-trial-run trial) k)
+                                (circuits-trial-point trial)))))
 
 ;;; With transformers: are there currents of the windings, and potentials of the nodes, with which
 ;;; the laws hold?

@@ -104,7 +104,6 @@ dependent); RIGHT gives what Kirchhoff's laws leave for a branch."
                          #'circuits-through-cut)
         (let ((mass (append i-rows (circuits-shifted-rows u-rows (length i-rows))))
               (right (append i-right u-right)))
-          (circuits-check-rates run mass right)
           (circuits-rates-record run mass right))))))
 
 (defun circuits-rates-record (run mass right)
@@ -112,7 +111,7 @@ dependent); RIGHT gives what Kirchhoff's laws leave for a branch."
          (states (append (cdr (circuits-network-currents network))
                          (cdr (circuits-network-voltages network)))))
     (multiple-value-bind (balance untold) (circuits-balance run states)
-      (when balance (circuits-check-balance run mass right balance))
+      (circuits-check-rates run mass right balance)
       (make-forms-rates
        :program *algebra-program* :states states :mass mass
        :outputs (list (cons '$rates (cons :list right)))

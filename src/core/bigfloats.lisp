@@ -30,7 +30,7 @@
 (defun core-rounded-to (number base places)
   "Two values m and x: m*BASE^x is next to NUMBER, which is not 0, and |m| has PLACES places."
   (let* ((size (- (integer-length (numerator number)) (integer-length (denominator number))))
-         (exponent (- (floor (* (1- size) (log 2d0 base))) places)) ; too small rather than too large
+         (exponent (- (floor (* (1- size) (log 2d0 base))) places)) ; rather too small
          (most (expt base places)))
     (loop
       (let ((mantissa (round (* number (expt base (- exponent))))))
@@ -46,8 +46,8 @@
         (core-bigfloat (* mantissa (expt 10 exponent)) digits))))
 
 (defun core-bigfloat-text (e)
-  "The bigfloat E, not negative, as a decimal of all its digits, 1.50b0; or nil where that is another
-number."
+  "The bigfloat E, not negative, as a decimal of all its digits, 1.50b0; or nil where that is
+another number."
   (let* ((digits (core-bigfloat-digits e)) (number (core-bigfloat-rational e)))
     (if (zerop number)
         (format nil "0.~v,,,'0ab0" (1- digits) "")

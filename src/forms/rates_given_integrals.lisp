@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; First integrals that are given, as programs beside the rates: V is constant along M x' = X where,
-;;; at a random point, (grad V, -dV/dt) is a combination of the rows (M, X). What is not so is left
-;;; out with a warning. See forms-with-given-integrals first.
+;;; First integrals that are given, as programs beside the rates: V is constant along M x' = X
+;;; where, at a random point, (grad V, -dV/dt) is a combination of the rows (M, X). What is not so
+;;; is left out with a warning. See forms-with-given-integrals first.
 
 (in-package :maxima)
 
@@ -13,8 +13,8 @@
 (defparameter *forms-most-judged-states* 60 "With M the judgement of more states takes long.")
 
 (defun forms-with-given-integrals (rates given everywhere)
-  "RATES with the integrals GIVEN, equations in the current program; EVERYWHERE: they are said to be
-constant along all motions, and not on some of them only."
+  "RATES with the integrals GIVEN, equations in the current program; EVERYWHERE: they are said to
+be constant along all motions, and not on some of them only."
   (loop for (nil name e) in (cdr given)
         for element = (first (core-attempt (lambda () (algebra-program-element e))))
         for integral = (and element (list name element (forms-size-of-expression e element) 0))
@@ -46,7 +46,8 @@ constant along all motions, and not on some of them only."
                             (forms-full-mass rates) (cdr (cdr output)))))
           (or (null item) (some #'null rows) (forms-in-rows-p item rows))))))
 
-(defun forms-numbers-at (elements point) (catch 'forms-no-value (forms-program-values elements point)))
+(defun forms-numbers-at (elements point)
+  (catch 'forms-no-value (forms-program-values elements point)))
 
 (defun forms-integral-row (rates element)
   "(dV/dx_1, .., -dV/dt)"

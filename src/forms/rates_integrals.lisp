@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; First integrals of a motion, on its program, for a run that tells how well it keeps them: the
-;;; energy sum v_i dL/dv_i - L, Jacobi's integral where the frame moves, with the power that it loses
-;;; otherwise, and the momentum of each coordinate on which nothing depends (E. T. Whittaker,
+;;; energy sum v_i dL/dv_i - L, Jacobi's integral where the frame moves, with the power that it
+;;; loses otherwise, and the momentum of each coordinate on which nothing depends (E. T. Whittaker,
 ;;; Analytical dynamics, sections 38, 41). With the left sides e_i of Lagrange's equations the rate
 ;;; of such a V is sum y_i e_i less that power, y the velocities or a unit vector: by that it is
 ;;; judged at a random point. See forms-motion-integrals first.
@@ -20,13 +20,12 @@
 
 (defun forms-motion-integrals (dynamics names)
   "Those of DYNAMICS, in coordinates and velocities; NAMES are those of the momenta."
-  (let ((terms (funcall (forms-dynamics-terms dynamics)))
-        (point (forms-trial-point (forms-momentum-trial dynamics))))
+  (let ((terms (funcall (forms-dynamics-terms dynamics))))
     (append (forms-energy-integrals dynamics terms)
             (loop for name in names
+                  for stays in (forms-staying-momenta dynamics terms)
                   for place from 0
-                  when (forms-momentum-stays-p dynamics terms place point)
-                    collect (forms-momentum-integral name dynamics terms place)))))
+                  when stays collect (forms-momentum-integral name dynamics terms place)))))
 
 (defun forms-at-rest (elements dynamics)
   "ELEMENTS without velocities, or nil where these have no value then."
@@ -44,8 +43,8 @@
   (algebra-program-sum
    (mapcar (lambda (e) (if (numberp e) (abs e) (algebra-program-function :absolute e))) elements)))
 
-;;; The energy is T2 - A0, L = T2 + T1 + A0 of these degrees in the velocities: its parts are as large
-;;; as T2 + |A0|.
+;;; The energy is T2 - A0, L = T2 + T1 + A0 of these degrees in the velocities: its parts are as
+;;; large as T2 + |A0|.
 
 (defun forms-energy-integrals (dynamics terms)
   (let* ((function (forms-program-terms-function terms))
@@ -78,16 +77,24 @@
 
 ;;; Momenta
 
-(defun forms-momentum-stays-p (dynamics terms place point)
-  "Whether the momentum of the coordinate at PLACE is constant, and not 0."
-  (flet ((of (reader) (nth place (funcall reader terms))))
-    (and (forms-nought-p (list* (of #'forms-program-terms-slopes)
-                                (algebra-program-subtract (of #'forms-program-terms-forces)
-                                                          (of #'forms-program-terms-damping))
-                                (loop for bond in (forms-dynamics-bonds dynamics)
-                                      collect (nth place (forms-bond-row bond))))
-                         point)
-         (not (forms-nought-p (list (of #'forms-program-terms-momenta)) point)))))
+(defun forms-staying-momenta (dynamics terms)
+  "For each momentum whether it is constant, and not 0, at a random point."
+  (let* ((point (forms-trial-point (forms-momentum-trial dynamics)))
+         (momenta (forms-program-terms-momenta terms))
+         (columns (list* (forms-program-terms-slopes terms)
+                         (mapcar #'algebra-program-subtract (forms-program-terms-forces terms)
+                                 (forms-program-terms-damping terms))
+                         (mapcar #'forms-bond-row (forms-dynamics-bonds dynamics))))
+         (found (catch 'forms-no-value
+                  (forms-program-values (loop for column in (cons momenta columns)
+                                              append column)
+                                        point))))
+    (loop with n = (length momenta)
+          for k below n
+          collect (and found
+                       (not (forms-negligible-p (nth k found)))
+                       (loop for place from (+ n k) below (length found) by n
+                             always (forms-negligible-p (nth place found)))))))
 
 (defun forms-momentum-integral (name dynamics terms place)
   "p = sum M_j v_j + a, whose parts are as large as these."

@@ -23,6 +23,10 @@
              (shift (if (>= (abs (* x (expt 2 shift))) (expt 2 53)) (1- shift) shift)))
         (scale-float (coerce (round (* x (expt 2 shift))) 'double-float) (- shift)))))
 
+(defun numerics-small-double (x)
+  "The same for a rational number X that may be too small for them: then 0."
+  (if (< (abs x) (expt 10 -300)) 0d0 (numerics-rounded x)))
+
 (defun numerics-short-number (x)
   "X to six digits, as a person writes it."
   (flet ((trimmed (text) (string-right-trim "." (string-right-trim "0" text))))

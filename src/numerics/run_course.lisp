@@ -40,7 +40,7 @@
            (core-error "the steps of dlsode build on each other, and constraints change the state ~
                         after each; take method = auto"))
           ((member method *numerics-implicit-methods*)
-           (numerics-add-jacobian problem)
+           (unless (numerics-problem-jacobian problem) (numerics-add-jacobian problem))
            (numerics-warn-of-start run))
           ((numerics-problem-mass problem)
            (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is not ~

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Runs of many digits, by Taylor series (taylor.lisp): start, times and values are taken exactly, and
-;;; rows stand where two runs of other orders and steps agree. There are no events and no projection:
-;;; the start has to hold the constraints to all digits, then the motion does. See
-;;; numerics-run-of-digits first.
+;;; Runs of many digits, by Taylor series (taylor.lisp): start, times and values are taken exactly,
+;;; and rows stand where two runs of other orders and steps agree. There are no events and no
+;;; projection: the start has to hold the constraints to all digits, then the motion does. See
+;;; numerics-long-rows first.
 
 (in-package :maxima)
 
@@ -33,8 +33,8 @@
                             agree; ~a has no place there, leave it out" digits option)))))
 
 (defun numerics-long-rows (run start span began)
-  "The rows of RUN from START, exact values, over SPAN, as a Maxima list; the derivation of RUN began at
-BEGAN."
+  "The rows of RUN from START, exact values, over SPAN, as a Maxima list; the derivation of RUN
+began at BEGAN."
   (let* ((wishes (numerics-simulation-wishes run)) (digits (numerics-wishes-digits wishes))
          (times (numerics-exact-times (numerics-wishes-points wishes) (numerics-read-span span))))
     (numerics-check-exact-start run start (first times) digits)
@@ -52,7 +52,8 @@ BEGAN."
 
 (defun numerics-tell-long (run rows)
   "Says how RUN ended, and gives its report to the result."
-  (let* ((outcome (numerics-simulation-outcome run)) (trouble (numerics-trouble-of-series outcome)))
+  (let* ((outcome (numerics-simulation-outcome run))
+         (trouble (numerics-trouble-of-series outcome)))
     (when trouble
       (core-partial "the run ended at t = ~a, before t = ~a: ~a"
                     (core-words (list (aref (numerics-outcome-moment outcome) 0)))
@@ -80,16 +81,16 @@ BEGAN."
           (remove-duplicates times :test #'alike1)))))
 
 (defun numerics-bigfloat-rows (outcome times wishes)
-  "The rows of OUTCOME at those of TIMES that are wanted, and at the end; the numbers are decimals of so
-many digits, as an archive keeps them."
+  "The rows of OUTCOME at those of TIMES that are wanted, and at the end; the numbers are decimals
+of so many digits, as an archive keeps them."
   (let ((points (numerics-wishes-points wishes)) (digits (numerics-wishes-digits wishes)))
     (flet ((number (x) (core-decimal-bigfloat (core-bigfloat-rational x) digits)))
       (cons '(mlist simp)
-             (loop for row in (numerics-taylor-outcome-rows outcome)
-                   for (time . later) on times
-                   when (or (integerp points) (null later)
-                            (member time (cdr points) :test #'alike1))
-                     collect (cons '(mlist simp) (mapcar #'number row)))))))
+            (loop for row in (numerics-taylor-outcome-rows outcome)
+                  for (time . later) on times
+                  when (or (integerp points) (null later)
+                           (member time (cdr points) :test #'alike1))
+                    collect (cons '(mlist simp) (mapcar #'number row)))))))
 
 (defun numerics-trouble-of-series (outcome)
   (unless (eq (numerics-outcome-status outcome) :end)
@@ -111,8 +112,8 @@ many digits, as an archive keeps them."
     (numerics-big-routine elements (cons '$t (numerics-program-names program)) digits)))
 
 (defun numerics-exact-residual (run rows digits)
-  "The largest residual of a constraint in ROWS, lists (time . states), a rational number; nil without
-constraints."
+  "The largest residual of a constraint in ROWS, lists (time . states), a rational number; nil
+without constraints."
   (let ((elements (loop for key in '($positions $velocities)
                         for output = (cdr (assoc key (forms-rates-outputs
                                                       (numerics-simulation-rates run))))
@@ -131,7 +132,7 @@ constraints."
     (when (and residual (> residual (expt 10 (- digits))))
       (core-error "the start is off the constraints by ~a; for ~d digits give it exactly, such as ~
                    acos(1/3)"
-                  (numerics-short-number (numerics-rounded residual)) digits))))
+                  (numerics-short-number (numerics-small-double residual)) digits))))
 
 (defun numerics-residual-fields (run rows)
   (let ((residual (and (cdr rows)
@@ -139,7 +140,7 @@ constraints."
                                                 (+ 5 (numerics-wishes-digits
                                                       (numerics-simulation-wishes run)))))))
     (when residual
-      (list (algebra-field '$residual (numerics-few-digits (numerics-rounded residual)))))))
+      (list (algebra-field '$residual (numerics-few-digits (numerics-small-double residual)))))))
 
 ;;; Drifts, at the rows
 
@@ -164,4 +165,4 @@ constraints."
         for first = (nth k (first table))
         for drift = (loop for row in table maximize (abs (- (nth k row) first)))
         for size = (max (abs first) (loop for row in table maximize (abs (nth (+ k count) row))))
-        collect (numerics-rounded (if (zerop size) drift (/ drift size)))))
+        collect (numerics-small-double (if (zerop size) drift (/ drift size)))))

@@ -20,13 +20,16 @@ these.")
     (when integrals
       (setf (numerics-simulation-drifting run) (mapcar #'first integrals)
             (numerics-simulation-drifts run)
-            (numerics-new-drifts
-             (numerics-integral-routine run (append (mapcar #'second integrals)
-                                                    (mapcar #'third integrals)))
-             (unless (every (lambda (integral) (eql (fourth integral) 0)) integrals)
-               (numerics-integral-routine run (mapcar #'fourth integrals)))
-             (length integrals)
-             (numerics-simulation-moment run) (numerics-simulation-state run))))))
+            (numerics-drifts-of-integrals run integrals)))))
+
+(defun numerics-drifts-of-integrals (run integrals)
+  (let ((values (numerics-integral-routine run (append (mapcar #'second integrals)
+                                                       (mapcar #'third integrals))))
+        (powers (unless (every (lambda (integral) (eql (fourth integral) 0)) integrals)
+                  (numerics-integral-routine run (mapcar #'fourth integrals)))))
+    (numerics-with-masked-traps
+      (numerics-new-drifts values powers (length integrals) (numerics-simulation-moment run)
+                           (numerics-simulation-state run)))))
 
 (defun numerics-told-integrals (run)
   "Those of the rates of RUN that it can tell."

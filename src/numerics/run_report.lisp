@@ -93,7 +93,7 @@ asked for."
   "The relative tolerance of RUN, or what its digits stand for."
   (let ((digits (numerics-wishes-digits (numerics-simulation-wishes run))))
     (if (plusp digits)
-        (numerics-rounded (expt 10 (- digits)))
+        (max 1d-300 (numerics-small-double (expt 10 (- digits))))
         (numerics-controls-relative (numerics-simulation-controls run)))))
 
 (defparameter *numerics-worrying-drift* 1000 "So many times the tolerance a drift is worth a line.")

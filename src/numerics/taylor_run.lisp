@@ -65,41 +65,62 @@
 
 (defun numerics-taylor-step (run scale)
   "One step of RUN, whose series have the SCALE; the length of the step."
-  (let* ((expansion (numerics-taylor-run-expansion run)) (bits (numerics-taylor-bits run))
-         (left (- (numerics-taylor-run-end run) (numerics-taylor-run-moment run)))
-         (step (loop for step = (numerics-taylor-fitting-step run scale)
-                     while (< (* 32 (abs step)) (abs scale))
-                     do (setq scale step)
-                     finally (return step))))
-    (cond ((numerics-taylor-too-short-p run step)
-           (numerics-taylor-ended
-            run :smallest-step
-            "the series reach less and less far: the solution does not seem to go on"))
-          (t (when (>= (abs step) (abs left)) (setq step left))
-             (numerics-taylor-take-rows run step scale)
-             (setf (numerics-taylor-run-states run)
-                   (numerics-expansion-states-at expansion (floor (ash step bits) scale)))
-             (incf (numerics-taylor-run-moment run) step)))
-    step))
+  (let ((expansion (numerics-taylor-run-expansion run)) (bits (numerics-taylor-bits run))
+        (left (numerics-taylor-left run)))
+    (multiple-value-bind (step scale) (numerics-taylor-fitting-step run scale)
+      (cond ((numerics-taylor-too-short-p run step)
+             (numerics-taylor-ended
+              run :smallest-step
+              "the series reach less and less far: the solution does not seem to go on"))
+            (t (when (>= (abs step) (abs left)) (setq step left))
+               (numerics-taylor-take-rows run step scale)
+               (setf (numerics-taylor-run-states run)
+                     (numerics-expansion-states-at expansion (floor (ash step bits) scale)))
+               (incf (numerics-taylor-run-moment run) step)))
+      step)))
+
+(defun numerics-taylor-left (run)
+  (- (numerics-taylor-run-end run) (numerics-taylor-run-moment run)))
 
 (defun numerics-taylor-fitting-step (run scale)
-  "Expands with SCALE; the longest step, with its sign, that the series allow."
-  (let ((expansion (numerics-taylor-run-expansion run)))
-    (numerics-expand expansion (numerics-taylor-run-moment run) (numerics-taylor-run-states run)
-                     scale)
-    (numerics-before-corners
-     run (round (* scale (rational (expt 2d0 (- (numerics-taylor-radius run) 3))))))))
+  "Two values: the longest step, with its sign, that the series allow, and their scale: SCALE or a
+shorter one where the step is far shorter, a longer one where the coefficients are lost in rounding."
+  (let ((may-grow t) (left (numerics-taylor-left run)))
+    (loop
+      (multiple-value-bind (step vague) (numerics-taylor-step-of-scale run scale)
+        (cond ((< (* 32 (abs step)) (abs scale))
+               (setq scale step may-grow nil))
+              ((and vague may-grow (< (abs scale) (abs left)))
+               (setq scale (* (signum left) (min (abs left) (* 8 (abs scale))))))
+              (t (return (values step scale))))))))
+
+(defconstant numerics-taylor-share (/ 2 (log 2d0))
+  "Binary logarithm of e^2.")
+
+(defun numerics-taylor-step-of-scale (run scale)
+  "Expands with SCALE. Two values: the longest step that the series allow, and whether these are too
+small to tell."
+  (numerics-expand (numerics-taylor-run-expansion run) (numerics-taylor-run-moment run)
+                   (numerics-taylor-run-states run) scale)
+  (multiple-value-bind (radius size) (numerics-taylor-radius run)
+    (values (numerics-before-corners
+             run (round (* scale (rational (expt 2d0 (- radius numerics-taylor-share))))))
+            (< size 12))))
 
 (defun numerics-taylor-radius (run)
   "The binary logarithm of the radius of convergence in units of the scale: the least of
-(|x_i| + s_i)/|c_k| to the power 1/k for the last half of the coefficients c_k of each state."
-  (let* ((expansion (numerics-taylor-run-expansion run))
+(|x_i| + s_i)/|c_k| to the power 1/k for the last half of the coefficients c_k of each state. Second,
+how many binary digits that coefficient has."
+  (let* ((expansion (numerics-taylor-run-expansion run)) (least nil) (digits 0)
          (order (numerics-expansion-order expansion)))
     (loop for series in (numerics-expansion-states expansion)
           for scale in (numerics-taylor-run-scales run)
           for length = (integer-length (+ (abs (svref series 0)) scale))
-          minimize (loop for k from (floor order 2) to order
-                         minimize (/ (- length (integer-length (svref series k))) (float k 1d0))))))
+          do (loop for k from (floor order 2) to order
+                   for size = (integer-length (svref series k))
+                   for radius = (/ (- length size) (float k 1d0))
+                   do (when (or (null least) (< radius least)) (setq least radius digits size))))
+    (values least digits)))
 
 (defun numerics-before-corners (run step)
   "STEP, or what of it is free of corners."
