@@ -27,10 +27,10 @@
 (defun numerics-gauss-order (controls)
   "The order that reaches the tolerance with the fewest rates, as measured on the double pendulum."
   (let ((tolerance (numerics-controls-relative controls)))
-    (cond ((>= tolerance 1d-5) 4)
-          ((>= tolerance 1d-8) 6)
-          ((>= tolerance 1d-11) 8)
-          (t 10))))
+    (cond ((>= tolerance 1d-4) 6)
+          ((>= tolerance 1d-6) 8)
+          ((>= tolerance 1d-9) 10)
+          (t 12))))
 
 (defun numerics-gauss-steps (run controls moment state observer)
   "Steps until the end, or until something goes wrong or somebody stops: the status."

@@ -47,7 +47,7 @@
           (setq shortest (min shortest next))
           (incf steps)
           (decf left step)
-          (when (or (<= left 0d0) (>= steps (max 32 (min 5000 (/ (abs span) step 6)))))
+          (when (or (<= left 0d0) (>= steps (max 32 (min 2000 (/ (abs span) step 6)))))
             (return (float-sign span shortest)))
           (numerics-pilot-accept pilot))
         (setq step next)))))
