@@ -4,7 +4,8 @@
 ;;; matrices: the entry of row i and column j stands at i + j*stride + offset, and is no zero only
 ;;; where -upper-lower <= i - j <= lower (the exchanges of rows widen the upper band). Rows are
 ;;; exchanged column by column as the elimination reaches them; what is 0 in the row of the pivot
-;;; costs nothing.
+;;; costs nothing. On the diagonal of the factors stand the inverse pivots: many solutions follow one
+;;; elimination, and a product takes a fifth of the time of a quotient.
 
 (in-package :maxima)
 
@@ -58,6 +59,20 @@
                 (decf (aref ,(second y) q) (+ (* u b) (* v a))))
               (setq p (the numerics-index (1+ p)) q (the numerics-index (1+ q))))))
 
+(defmacro numerics-multiply-by (n factor x from)
+  "N numbers of X from the place FROM on are multiplied by FACTOR."
+  `(let ((p ,from) (factor ,factor))
+     (declare (type numerics-index p) (double-float factor) (optimize speed (safety 0)))
+     (loop repeat ,n
+           do (setf (aref ,x p) (* factor (aref ,x p))
+                    p (the numerics-index (1+ p))))))
+
+(defmacro numerics-multiply-complex (x y place u v)
+  "The number of X and Y at PLACE times u + iv."
+  `(let ((a (aref ,x ,place)) (b (aref ,y ,place)))
+     (setf (aref ,x ,place) (- (* a ,u) (* b ,v))
+           (aref ,y ,place) (+ (* a ,v) (* b ,u)))))
+
 ;;; Pivots.
 
 (defmacro numerics-largest-below (count scales k place-and-size)
@@ -94,9 +109,8 @@ is multiplied with its row's of SCALES. PLACE-AND-SIZE: (i e), the size E of the
         (let ((pivot (aref real diagonal)))
           (when (numerics-no-pivot-p solver (abs pivot) k)
             (return (numerics-note-singular solver k)))
-          (loop for p of-type numerics-index from (1+ diagonal)
-                repeat rows
-                do (setf (aref real p) (/ (aref real p) pivot))))
+          (setf (aref real diagonal) (/ pivot))
+          (numerics-multiply-by rows (aref real diagonal) real (1+ diagonal)))
         (loop for j of-type (unsigned-byte 24) from (1+ k) to (+ k columns)
               do (let ((top (place k j)))
                    (rotatef (aref real top) (aref real (+ top chosen)))
@@ -104,16 +118,16 @@ is multiplied with its row's of SCALES. PLACE-AND-SIZE: (i e), the size E of the
                      (numerics-subtract-multiple rows (aref real top)
                                                  real (1+ diagonal) real (1+ top)))))))))
 
-(defmacro numerics-divide-complex (x y place u v)
-  "The number of X and Y at PLACE through u + iv (Smith's division)."
-  `(let ((a (aref ,x ,place)) (b (aref ,y ,place)))
-     (if (< (abs ,v) (abs ,u))
-         (let* ((ratio (/ ,v ,u)) (denominator (+ ,u (* ,v ratio))))
-           (setf (aref ,x ,place) (/ (+ a (* b ratio)) denominator)
-                 (aref ,y ,place) (/ (- b (* a ratio)) denominator)))
-         (let* ((ratio (/ ,u ,v)) (denominator (+ ,v (* ,u ratio))))
-           (setf (aref ,x ,place) (/ (+ (* a ratio) b) denominator)
-                 (aref ,y ,place) (/ (- (* b ratio) a) denominator))))))
+(defmacro numerics-invert-complex (x y place)
+  "The number of X and Y at PLACE becomes its inverse (Smith's division)."
+  `(let ((u (aref ,x ,place)) (v (aref ,y ,place)))
+     (if (< (abs v) (abs u))
+         (let* ((ratio (/ v u)) (inverse (/ (+ u (* v ratio)))))
+           (setf (aref ,x ,place) inverse
+                 (aref ,y ,place) (- (* ratio inverse))))
+         (let* ((ratio (/ u v)) (inverse (/ (+ v (* u ratio)))))
+           (setf (aref ,x ,place) (* ratio inverse)
+                 (aref ,y ,place) (- inverse))))))
 
 (defun numerics-eliminate-complex (solver)
   (declare (optimize speed))
@@ -128,12 +142,14 @@ is multiplied with its row's of SCALES. PLACE-AND-SIZE: (i e), the size E of the
         (numerics-note-pivot solver k (+ k chosen))
         (rotatef (aref real diagonal) (aref real (+ diagonal chosen)))
         (rotatef (aref imaginary diagonal) (aref imaginary (+ diagonal chosen)))
+        (when (numerics-no-pivot-p solver (+ (abs (aref real diagonal))
+                                             (abs (aref imaginary diagonal))) k)
+          (return (numerics-note-singular solver k)))
+        (numerics-invert-complex real imaginary diagonal)
         (let ((u (aref real diagonal)) (v (aref imaginary diagonal)))
-          (when (numerics-no-pivot-p solver (+ (abs u) (abs v)) k)
-            (return (numerics-note-singular solver k)))
           (loop for p of-type numerics-index from (1+ diagonal)
                 repeat rows
-                do (numerics-divide-complex real imaginary p u v)))
+                do (numerics-multiply-complex real imaginary p u v)))
         (loop for j of-type (unsigned-byte 24) from (1+ k) to (+ k columns)
               do (let ((top (place k j)))
                    (rotatef (aref real top) (aref real (+ top chosen)))
@@ -165,7 +181,7 @@ is multiplied with its row's of SCALES. PLACE-AND-SIZE: (i e), the size E of the
     (loop for k of-type (signed-byte 25) from (1- n) downto 0
           do (let ((rows (min above k)))
                (declare (type (unsigned-byte 24) rows))
-               (setf (aref x k) (/ (aref x k) (aref real (place k k))))
+               (setf (aref x k) (* (aref x k) (aref real (place k k))))
                (unless (= (aref x k) 0d0)
                  (numerics-subtract-multiple rows (aref x k)
                                              real (place (- k rows) k) x (- k rows)))))))
@@ -183,7 +199,7 @@ is multiplied with its row's of SCALES. PLACE-AND-SIZE: (i e), the size E of the
           do (let ((rows (min above k)) (u (aref real (place k k)))
                    (v (aref imaginary (place k k))))
                (declare (type (unsigned-byte 24) rows))
-               (numerics-divide-complex x y k u v)
+               (numerics-multiply-complex x y k u v)
                (unless (= (aref x k) (aref y k) 0d0)
                  (numerics-subtract-complex-multiple
                   rows ((aref x k) (aref y k))
