@@ -1,0 +1,32 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Lists of numbers of branches: those of a type, those that are not in a list. Each branch is
+;;; looked at once, whatever its place in the list is.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "circuits/elements"))
+
+(defun $circuits_of_type (branches numbers types)
+  "Those of NUMBERS whose branches are of one of TYPES."
+  (let ((branches (coerce (cdr branches) 'simple-vector)))
+    (cons '(mlist simp)
+          (loop for number in (cdr numbers)
+                when (member (circuits-branch-type (svref branches (1- number))) (cdr types))
+                  collect number))))
+
+(defun circuits-marks (numbers count)
+  "A vector of COUNT truths: which places are among NUMBERS."
+  (let ((marks (make-array count :initial-element nil)))
+    (dolist (number (cdr numbers) marks) (setf (svref marks (1- number)) t))))
+
+(defun $circuits_marks (numbers count)
+  "[true, false, ..]: which of 1, .., COUNT are among NUMBERS."
+  (cons '(mlist simp) (coerce (circuits-marks numbers count) 'list)))
+
+(defun $circuits_complement (numbers count)
+  "Those of 1, .., COUNT that are not among NUMBERS."
+  (cons '(mlist simp)
+        (loop for mark across (circuits-marks numbers count)
+              for number from 1
+              unless mark collect number)))
