@@ -52,7 +52,8 @@ while read -r call; do
   check "$call" "$(cat "hostile/$number")" "$(cat "clean/$number")"
 done <calls
 for archive in clean/*.txt; do
-  check "$archive with its results" "$(diff "$archive" "hostile/${archive#*/}")" ""
+  grep -v 'seconds = ' "$archive" >plain
+  check "$archive with its results" "$(grep -v 'seconds = ' "hostile/${archive#*/}" | diff plain -)" ""
 done
 
 summary

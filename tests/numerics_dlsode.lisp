@@ -24,8 +24,8 @@ steps, and there."
                       do (funcall (numerics-step-interpolate step) share out)
                          (setq between (max between (abs (- (aref out 0) right))))
                          (when (= share 1)
-                           (setq at-ends (max at-ends
-                                              (abs (- (aref (numerics-step-after step) 0) right))))))
+                           (let ((x (aref (numerics-step-after step) 0)))
+                             (setq at-ends (max at-ends (abs (- x right)))))))
                 nil))
     (test-list between at-ends)))
 

@@ -260,7 +260,7 @@ and gives the parts of the observer."
           (numbers-run '$plane_pendulum start span tolerance '()
                        (lambda (moment state controls)
                          (setq drifts (numerics-new-drifts
-                                       (gethash '$plane_energy *numbers-problems*) 1 moment state)
+                                       (gethash '$plane_energy *numbers-problems*) nil 1 moment state)
                                rows (numerics-new-rows (numbers-vector times) moment state
                                                        (and projected #'project)))
                          (append (and projected (list (numerics-projection-part constraints)))

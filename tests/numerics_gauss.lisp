@@ -72,7 +72,8 @@
          (end (coerce ($float (third span)) 'double-float))
          (controls (make-numerics-controls :end end :relative tolerance :counts counts
                                            :most-steps most-steps
-                                           :first-step (and step (coerce ($float step) 'double-float))))
+                                           :first-step (and step (coerce ($float step)
+                                                                         'double-float))))
          (moment (numerics-moment (coerce ($float (second span)) 'double-float))))
     (values (numerics-with-masked-traps
               (numerics-gauss (gauss-problem name (length state)) controls moment state observer

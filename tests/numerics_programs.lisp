@@ -371,9 +371,6 @@
                (test-floats (numerics-pattern-starts (numerics-problem-pattern problem)))
                (test-floats (numerics-pattern-rows (numerics-problem-pattern problem))))))
 
-(defun $test_angles (record)
-  (apply #'test-list (numerics-problem-angles (numerics-problem-of-program record '()))))
-
 (defmspec $test_product (form)
   ;; test_product(e): the value of e while no rows of a product become code.
   (let ((*numerics-most-row-terms* 0)) (meval (second form))))

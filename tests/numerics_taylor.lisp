@@ -19,7 +19,7 @@
 
 (defun $test_series (e start order digits)
   "The Taylor coefficients of E, an expression of t, at START."
-  (let* ((bits (numerics-bits-of-digits (+ digits 20)))
+  (let* ((bits (core-bits-of-digits (+ digits 20)))
          (expansion (numerics-expansion-of (taylor-program (taylor-list (list '$x))
                                                            (taylor-list (list e)))
                                            bits (1+ order)))
@@ -36,11 +36,10 @@
   (intern (substitute #\_ #\- (format nil "$~a" (numerics-outcome-status outcome))) :maxima))
 
 (defun $test_taylor (names rates start times digits &rest more)
-  "[status, rows, about, agreement, time]; MORE is the matrix mass, and the greatest number of steps."
+  "[status, rows, about, time]; MORE is the matrix mass, and the greatest number of steps."
   (let ((outcome (numerics-taylor (taylor-program names rates (first more)) (cdr start) (cdr times)
                                   digits :most-steps (or (second more) 10000))))
     (taylor-list (list (taylor-status outcome)
                        (taylor-list (mapcar #'taylor-list (numerics-taylor-outcome-rows outcome)))
                        (numerics-outcome-about outcome)
-                       (numerics-taylor-outcome-agreement outcome)
                        (aref (numerics-outcome-moment outcome) 0)))))

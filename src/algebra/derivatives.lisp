@@ -32,6 +32,22 @@
                           collect (algebra-general-reduced
                                    (algebra-derivative quotient rate)))))))
 
+;;; The coefficient of a name in a linear equation
+
+(defvar *algebra-slopes* (make-algebra-memory) "Slopes: steps of solving ask them in turn.")
+
+(defun $algebra_slope (e x)
+  "de/dX, normal, where E is linear in X and not free of it; else false."
+  (algebra-remembered *algebra-slopes* (list* x (algebra-size e) e)
+                      (lambda () (algebra-new-slope e x))))
+
+(defun algebra-new-slope (e x)
+  (let ((slope ($algebra_normal ($diff e x))))
+    (and (algebra-free-p x slope)
+         (not (eql slope 0))
+         (algebra-free-p x (maxima-substitute 0 x e))
+         slope)))
+
 ;;; How kernels change with a variable: (kernel or unit . skeleton), .. where they do.
 
 (defun algebra-rates-of-kernels (x)

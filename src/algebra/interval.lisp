@@ -120,9 +120,13 @@ digits are enough."
 
 (defun algebra-i-unit () (ash 1 *algebra-interval-bits*))
 
+;; GCL's floor of -2^63 by 17 is not below the quotient, its ceiling is right.
+
+(defun algebra-floor (n d) (- (values (ceiling (- n) d))))
+
 (defun algebra-i (r)
   (let ((scaled (* r (algebra-i-unit))))
-    (cons (floor scaled) (ceiling scaled))))
+    (cons (algebra-floor (numerator scaled) (denominator scaled)) (ceiling scaled))))
 
 (defun algebra-i+ (a b)
   (cons (+ (car a) (car b)) (+ (cdr a) (cdr b))))
@@ -149,11 +153,13 @@ digits are enough."
   (let ((quotients (loop for x in (list (car a) (cdr a))
                          append (loop for y in (list (car b) (cdr b))
                                       collect (/ (* x (algebra-i-unit)) y)))))
-    (cons (floor (reduce #'min quotients)) (ceiling (reduce #'max quotients)))))
+    (let ((least (reduce #'min quotients)))
+      (cons (algebra-floor (numerator least) (denominator least))
+            (ceiling (reduce #'max quotients))))))
 
 (defun algebra-i-over (a n)
   "A divided by the integer N > 0."
-  (cons (floor (car a) n) (ceiling (cdr a) n)))
+  (cons (algebra-floor (car a) n) (ceiling (cdr a) n)))
 
 (defun algebra-i-abs (a)
   (cond ((minusp (cdr a)) (algebra-i-minus a))

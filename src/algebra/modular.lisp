@@ -34,13 +34,19 @@
   "a^(p-2) modulo p"
   (algebra-modular-power (mod a (algebra-prime)) (- (algebra-prime) 2)))
 
+;; GCL's mod of -2^63 is negative.
+(defun algebra-residue (n)
+  "The whole number N modulo the prime."
+  (let ((rest (mod (abs n) (algebra-prime))))
+    (if (and (minusp n) (plusp rest)) (- (algebra-prime) rest) rest)))
+
 (defun algebra-inverse-modulo (a p) (algebra-power-modulo (mod a p) (- p 2) p))
 
 ;;; Values at a point: a table of the variables.
 
 (defun algebra-modular-value (p point)
   (if (atom p)
-      (mod p (algebra-prime))
+      (algebra-residue p)
       (let ((x (gethash (car p) point)) (sum 0))
         (loop for (exponent coefficient) on (cdr p) by #'cddr
               do (setq sum (mod (+ sum (* (algebra-modular-power x exponent)
@@ -100,7 +106,7 @@
 (defun algebra-line-image (p line)
   "LINE is a table of pairs (a . b)."
   (if (atom p)
-      (algebra-trimmed (vector (mod p (algebra-prime))))
+      (algebra-trimmed (vector (algebra-residue p)))
       (destructuring-bind (a . b) (algebra-line-of (car p) line)
         (let ((image (vector)) (last (cadr p)))
           (loop for (exponent coefficient) on (cdr p) by #'cddr

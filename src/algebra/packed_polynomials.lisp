@@ -74,7 +74,9 @@ coefficients."
         do (setq degree (max degree (algebra-monomial-degree monomial)))
         finally (return degree)))
 
-(defun algebra-turned (e) ($expand (mul -1 e)))
+(defun algebra-turned (e)
+  "-E of the expanded E; what stands inside its kernels stays as it is."
+  (addn (mapcar (lambda (term) (mul -1 term)) (algebra-summands e)) nil))
 
 ;;; Arithmetic
 

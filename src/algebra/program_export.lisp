@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "algebra/program_languages"
+  (core-require "algebra/new_files" "algebra/program_record" "algebra/program_languages"
                 "algebra/program_from_expressions" "algebra/program_nodes"))
 
 (defvar *algebra-part-length* 300 "Assignments in one function.")
@@ -115,10 +115,6 @@
 (defun algebra-routine-character (c)
   (if (or (char<= #\a c #\z) (char<= #\A c #\Z) (digit-char-p c)) (char-downcase c) #\_))
 
-(defun algebra-folder-length (file)
-  "How many letters of FILE name its folder, the last slash included."
-  (1+ (or (position #\/ file :from-end t) -1)))
-
 (defun algebra-routine-name (file language)
   "The name of FILE without folder and type, as a routine may be called in LANGUAGE."
   (let* ((start (algebra-folder-length file))
@@ -128,38 +124,6 @@
              (not (algebra-reserved-name-p name (algebra-language-name language))))
         (subseq name 0 (min 50 (length name)))
         (concatenate 'string "program_" (subseq name 0 (min 40 (length name)))))))
-
-(defun algebra-check-new-file (file replace)
-  (when (and (core-existing-file file) (not replace))
-    (core-error "~a exists already; give replace = true to write over it" file)))
-
-(defun algebra-or-unwritable (file function)
-  "The value of FUNCTION, or an error that says what hinders."
-  (handler-case (funcall function)
-    (error ()
-      (let ((folder (subseq file 0 (algebra-folder-length file))))
-        (core-error "~a cannot be written: ~:[the folder ~a~;the working folder~*~] does not ~
-                     exist or cannot be written in, or a folder has this name"
-                    file (string= folder "") folder)))))
-
-(defun algebra-open-draft (draft file)
-  (algebra-or-unwritable
-   file
-   (lambda () (open (core-pathname draft) :direction :output :if-exists :supersede))))
-
-(defun algebra-write-file (file function)
-  "FUNCTION writes to a draft, which then takes the place of FILE."
-  (let ((draft (format nil "~a.~a.draft" file (core-process-id))))
-    (unwind-protect
-         (progn
-           (with-open-stream (stream (algebra-open-draft draft file)) (funcall function stream))
-           (algebra-or-unwritable file (lambda () (algebra-rename-file draft file))))
-      (when (core-existing-file draft) (delete-file (core-pathname draft))))))
-
-(defun algebra-rename-file (draft file)
-  #+sbcl (rename-file (core-pathname draft)
-                      (merge-pathnames (core-pathname file) (make-pathname :type :unspecific)))
-  #-sbcl (rename-file draft (merge-pathnames file (make-pathname :type :unspecific))))
 
 (defun $algebra_export (record file language replace)
   "Writes RECORD to FILE and returns the name of the file."

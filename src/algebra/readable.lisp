@@ -88,29 +88,29 @@
   (+ (* 1000 (algebra-monomials p)) (algebra-poly-size p)))
 
 (defun algebra-homogeneous (p unit)
-  "P of even powers of c (times c, s or c*s), made homogeneous in c^2, s^2 by c^2 + s^2 = 1."
+  "P of even powers of c (times c, s or c*s), made homogeneous in c^2, s^2 by c^2 + s^2 = 1: with
+w = s^2/c^2 the sum of a_k*c^(2k) is c^(2m) times that of a_k*(1 + w)^(m-k); 1 - w if hyperbolic."
   (let* ((cosine (algebra-kernel-variable (algebra-unit-cosine unit)))
          (sine (algebra-kernel-variable (algebra-unit-sine unit)))
-         (one (algebra-unit-sum unit))
-         (degree (algebra-degree p cosine sine))
+         (terms (algebra-terms-in p cosine sine))
+         (m (floor (loop for (i) in terms maximize i) 2))
+         (coefficients (make-array (1+ m) :initial-element 0))
          (sum 0))
-    (dolist (term (algebra-terms-in p cosine sine) sum)
-      (destructuring-bind (i j coefficient) term
-        (setq sum (pplus sum (ptimes coefficient
-                                     (ptimes (ptimes (pexpt (list cosine 1 1) i)
-                                                     (pexpt (list sine 1 1) j))
-                                             (pexpt one (floor (- degree i j) 2))))))))))
+    (loop for (i nil coefficient) in terms
+          do (setf (aref coefficients (- m (floor i 2))) coefficient))
+    (destructuring-bind (i j coefficient) (first terms)
+      (declare (ignore coefficient))
+      (loop for coefficient across (algebra-horner coefficients (algebra-square-sign unit) 1)
+            for k from 0
+            do (setq sum (pplus sum (ptimes coefficient
+                                            (ptimes (pexpt (list cosine 1 1)
+                                                           (+ (* 2 (- m k)) (mod i 2)))
+                                                    (pexpt (list sine 1 1) (+ (* 2 k) j))))))))
+    sum))
 
-(defun algebra-unit-sum (unit)
-  "The form of the second degree in c and s that is 1."
-  (let ((cosine (list (algebra-kernel-variable (algebra-unit-cosine unit)) 2 1))
-        (sine (list (algebra-kernel-variable (algebra-unit-sine unit)) 2 1)))
-    (if (eq (algebra-unit-kind unit) 'circular)
-        (pplus cosine sine)
-        (pdifference cosine sine))))
-
-(defun algebra-degree (p cosine sine)
-  (loop for (i j) in (algebra-terms-in p cosine sine) maximize (+ i j)))
+(defun algebra-square-sign (unit)
+  "The sign of s^2 in 1 = c^2 + s^2 or c^2 - s^2."
+  (if (eq (algebra-unit-kind unit) 'circular) 1 -1))
 
 (defun algebra-terms-in (p cosine sine)
   "P as a list of (i j coefficient): the coefficients of cosine^i*sine^j."

@@ -67,16 +67,45 @@
         sum)))
 
 (defun algebra-lower-powers (p variable square)
-  (if (< (cadr p) 2)
-      p
-      (let ((sum 0))
-        (loop for (exponent coefficient) on (cdr p) by #'cddr
-              do (setq sum
-                       (pplus sum
-                              (ptimes (ptimes coefficient
-                                              (algebra-binomial-power square (floor exponent 2)))
-                                      (if (oddp exponent) (list variable 1 1) 1)))))
-        sum)))
+  (cond ((< (cadr p) 2) p)
+        ((> (length p) 17) (algebra-lower-many-powers p variable square))
+        (t (let ((sum 0))
+             (loop for (exponent coefficient) on (cdr p) by #'cddr
+                   for power = (algebra-binomial-power square (floor exponent 2))
+                   do (setq sum (pplus sum (ptimes (ptimes coefficient power)
+                                                   (if (oddp exponent) (list variable 1 1) 1)))))
+             sum))))
+
+(defun algebra-lower-many-powers (p variable square)
+  "The same for many terms, by Horner's rule: nothing but sums."
+  (let* ((half (floor (cadr p) 2))
+         (even (make-array (1+ half) :initial-element 0))
+         (odd (make-array (1+ half) :initial-element 0)))
+    (algebra-guard (* half half) "a power of a sine or cosine, put in for the other,")
+    (loop for (exponent coefficient) on (cdr p) by #'cddr
+          do (setf (aref (if (oddp exponent) odd even) (floor exponent 2)) coefficient))
+    (destructuring-bind (x a b) (list (first square) (third square) (fifth square))
+      (flet ((lowered (coefficients)
+               (algebra-even-powers x (algebra-horner coefficients a b))))
+        (pplus (lowered even) (ptimes (lowered odd) (list variable 1 1)))))))
+
+(defun algebra-even-powers (x coefficients)
+  "sum of coefficient_k*x^(2k)"
+  (algebra-terms-together x (loop for k from (1- (length coefficients)) downto 0
+                                  unless (pzerop (aref coefficients k))
+                                    collect (* 2 k) and collect (aref coefficients k))))
+
+(defun algebra-horner (coefficients a b)
+  "The coefficients of the powers of y in the sum of coefficient_k*(a*y + b)^k; A, B are 1 or -1."
+  (let* ((degree (1- (length coefficients)))
+         (sum (make-array (1+ degree) :initial-element 0)))
+    (flet ((signed (sign e) (if (minusp sign) (pminus e) e)))
+      (loop for k from degree downto 0
+            do (loop for i from (- degree k) downto 1
+                     do (setf (aref sum i) (pplus (signed b (aref sum i))
+                                                  (signed a (aref sum (1- i))))))
+               (setf (aref sum 0) (pplus (signed b (aref sum 0)) (aref coefficients k)))))
+    sum))
 
 (defun algebra-binomial-power (square n)
   "(a*x^2 + b)^N for SQUARE, (x 2 a 0 b) with a, b = 1 or -1."

@@ -19,7 +19,7 @@
   (cond ((not (integerp base))
          (if (symbolp base)
              (algebra-root-kernel base degree scan)
-             (algebra-root-of-factors (algebra-radicand-factors base) degree scan)))
+             (algebra-root-of-factors (algebra-root-plan base degree) degree scan)))
         ((plusp base) (cons '* (algebra-prime-roots base degree scan)))
         ((and (= degree 2) (< base -1))
          (list '* (algebra-root-kernel -1 2 scan) (algebra-root (- base) 2 scan)))
@@ -56,26 +56,46 @@
                         (list (cons (cadr factor) (caddr factor))))
                        (t (list (cons factor 1)))))))
 
-(defun algebra-root-of-factors (factors degree scan)
-  "Whole powers out, the rest under one root; for the zero test positive factors apart."
-  (let ((outside nil) (inside 1))
-    (loop for (f . power) in factors
-          for sign = (algebra-known-sign f)
-          do (cond ((and (integerp f) (plusp f))
-                    (push (list '^ (algebra-root f degree scan) power) outside))
-                   ((or (= degree 2) (member sign '($pos $pz)))
-                    (multiple-value-bind (whole rest) (algebra-whole-powers power degree)
-                      (unless (zerop whole)
-                        (push (list '^ (algebra-absolute f scan) whole) outside))
-                      (cond ((zerop rest))
-                            ((and *algebra-roots-apart* (member sign '($pos $pz)))
-                             (push (list '^ (algebra-root-kernel f degree scan) rest) outside))
-                            (t (setq inside (mul inside (power f rest)))))))
-                   (t (setq inside (mul inside (power f power))))))
+(defun algebra-root-of-factors (plan degree scan)
+  "The skeleton by PLAN, of algebra-root-plan."
+  (destructuring-bind (numbers outside apart inside expression) plan
     (list* '* (if (integerp inside)
                   (algebra-root inside degree scan)
-                  (algebra-root-kernel (algebra-argument-form inside) degree scan))
-           outside)))
+                  (algebra-find-or-make-root expression degree
+                                             (lambda () (funcall scan inside))))
+           (append (loop for (f . power) in apart
+                         collect (list '^ (algebra-root-kernel f degree scan) power))
+                   (loop for (f . power) in outside
+                         collect (list '^ (algebra-absolute f scan) power))
+                   (loop for (f . power) in numbers
+                         collect (list '^ (algebra-root f degree scan) power))))))
+
+(defun algebra-new-root-plan (base degree)
+  "(numbers outside apart inside expression): factors (f . power) of the root of BASE that are roots
+of numbers, whole powers, roots of their own; the rest under one root, and that root."
+  (let ((numbers nil) (outside nil) (apart nil) (inside 1))
+    (loop for (f . power) in (algebra-radicand-factors base)
+          for sign = (algebra-known-sign f)
+          do (cond ((and (integerp f) (plusp f)) (push (cons f power) numbers))
+                   ((or (= degree 2) (member sign '($pos $pz)))
+                    (multiple-value-bind (whole rest) (algebra-whole-powers power degree)
+                      (unless (zerop whole) (push (cons f whole) outside))
+                      (cond ((zerop rest))
+                            ((and *algebra-roots-apart* (member sign '($pos $pz)))
+                             (push (cons f rest) apart))
+                            (t (setq inside (mul inside (power f rest)))))))
+                   (t (setq inside (mul inside (power f power))))))
+    (unless (integerp inside) (setq inside (algebra-argument-form inside)))
+    (list numbers outside apart inside
+          (and (not (integerp inside)) (power inside (list '(rat simp) 1 degree))))))
+
+(defvar *algebra-root-plans* (make-algebra-memory)
+  "Plans: the same roots come again and again in the conditions of a system.")
+
+(defun algebra-root-plan (base degree)
+  (algebra-remembered *algebra-root-plans*
+                      (list* degree *algebra-roots-apart* (algebra-size base) base)
+                      (lambda () (algebra-new-root-plan base degree))))
 
 (defun algebra-whole-powers (power degree)
   "In the zero test nothing stays below the line of a radicand."
@@ -113,8 +133,12 @@
   (algebra-find-or-make-root expression 2 (lambda () (list '^ (funcall scan (cadr expression)) 2))))
 
 (defun algebra-root-kernel (radicand degree scan)
-  (algebra-find-or-make-root (power radicand (list '(rat simp) 1 degree)) degree
-                             (lambda () (funcall scan radicand))))
+  "The kernel, or the skeleton of a root that Maxima takes apart, sqrt(x*y) where x is positive: it
+must not stand beside sqrt(x) as something of its own."
+  (let ((root (power radicand (list '(rat simp) 1 degree))))
+    (if (mtimesp root)
+        (funcall scan root)
+        (algebra-find-or-make-root root degree (lambda () (funcall scan radicand))))))
 
 (defun algebra-find-or-make-root (expression degree radicand)
   (or (algebra-find-opaque expression)

@@ -145,4 +145,13 @@ multiples of a common part their polynomials would be long, and zeros are found 
           ((integerp number) (list '^ (algebra-scan base) number))
           ((and number (<= (denominator number) *algebra-root-order*))
            (list '^ (algebra-root base (denominator number) #'algebra-scan) (numerator number)))
-          (t (list 'power (algebra-terms exponent (algebra-argument-form base)))))))
+          (t (let ((plain (algebra-power-of-logarithm base exponent)))
+               (if plain
+                   (algebra-scan plain)
+                   (list 'power (algebra-terms exponent (algebra-argument-form base)))))))))
+
+(defun algebra-power-of-logarithm (base exponent)
+  "a^(u*log(b)/log(a)) as b^u, a positive; else nil."
+  (when (and (among '%log exponent) (eq (algebra-known-sign base) '$pos))
+    (let ((plain (power '$%e ($expand (mul exponent (simplify (list '(%log) base)))))))
+      (and (not (among '%log plain)) plain))))

@@ -93,7 +93,7 @@
   (let ((size (algebra-size factor)))
     (if (and (mplusp factor) (< size 1000))
         (algebra-first-answer (list* #'algebra-simple-sign #'algebra-root-free-sign
-                                     #'algebra-shifted-sign
+                                     #'algebra-sign-by-one-fact #'algebra-shifted-sign
                                      (and (< size 250)
                                           (list #'algebra-discriminant-sign
                                                 #'algebra-proved-sign)))

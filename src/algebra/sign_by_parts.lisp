@@ -143,6 +143,7 @@
               ($zero '$zero)
               (t '$pz)))
       (%cosh (if (algebra-real-p (car arguments)) '$pos '$unknown))
+      ((%sin %cos) (algebra-sine-sign (caar e) (car arguments)))
       ((%sinh %tanh %atan %asinh %signum) (algebra-part-sign (car arguments)))
       (%log (if (eq (algebra-part-sign (car arguments)) '$pos)
                 (algebra-part-sign (sub (car arguments) 1))
@@ -154,6 +155,64 @@
                       arguments))))
       (t (let ((value (algebra-noun-value e)))
            (if value (algebra-part-sign value) '$unknown))))))
+
+(defun algebra-sine-sign (function u)
+  "Of sin or cos of U that the facts bound between multiples of a quarter turn."
+  (let ((u (if (eq function '%cos) (add u (div '$%pi 2)) u)))
+    (flet ((above (k) (algebra-bounded-sign (sub u (mul k '$%pi)))))
+      (if (algebra-bounded-p u)
+          (loop for k in '(-2 -1 0 1)
+                for low = (above k)
+                for high = (if (member low '($pos $pz $zero))
+                               (algebra-opposite-sign (above (1+ k))))
+                do (when (member high '($pos $pz $zero))
+                     (return (algebra-signed-half-turn k low high)))
+                finally (return '$unknown))
+          '$unknown))))
+
+(defun algebra-signed-half-turn (k low high)
+  "The sign of sin(u) where u - k*%pi and (k+1)*%pi - u have the signs LOW and HIGH."
+  (let ((sign (if (and (eq low '$pos) (eq high '$pos)) '$pos '$pz)))
+    (if (evenp k) sign (algebra-opposite-sign sign))))
+
+(defun algebra-bounded-p (u)
+  "Whether U is short and the facts speak of its names beside numbers."
+  (and *algebra-knowledge*
+       (< (algebra-size u) 40)
+       (let ((names (cdr ($listofvars u))))
+         (and names
+              (loop for name in names
+                    always (some (lambda (fact) (among name fact))
+                                 (knowledge-facts *algebra-knowledge*)))))))
+
+(defun algebra-bounded-sign (e)
+  "pos or pz where E is a positive multiple of a fact and a constant, neg or nz where -E is."
+  (let ((names ($listofvars e)) (e ($expand e)) (opposite ($expand (mul -1 e))))
+    (or (loop for fact in (knowledge-facts *algebra-knowledge*)
+              when (and (< (algebra-size fact) 20) (equal names ($listofvars fact)))
+                do (let ((above (algebra-sign-beyond e (cadr names) fact))
+                         (below (algebra-sign-beyond opposite (cadr names) fact)))
+                     (cond (above (return above))
+                           (below (return (algebra-opposite-sign below))))))
+        '$unknown)))
+
+(defun algebra-sign-by-one-fact (e)
+  "Of a short sum in one name, by a fact beside a constant, such as x < sqrt(2)."
+  (if (and *algebra-knowledge* (< (algebra-size e) 20) (null (cddr ($listofvars e))))
+      (algebra-bounded-sign e)
+      '$unknown))
+
+(defun algebra-sign-beyond (e x fact)
+  "pos or pz where E = k*d + c by the FACT d > 0 or d >= 0 on X, k a positive number, c >= 0."
+  (multiple-value-bind (d needed) (core-fact-difference fact)
+    (let* ((slope ($coeff ($expand d) x))
+           (k (and (mnump slope) (not (zerop1 slope)) (div ($coeff e x) slope)))
+           (rest (and k (mnump k) ($expand (sub e (mul k d))))))
+      (and rest
+           (member needed '($pos $pz))
+           (eq (algebra-part-sign k) '$pos)
+           (algebra-constant-p rest)
+           (case (algebra-constant-sign rest) ($pos '$pos) ($zero needed))))))
 
 (defun algebra-largest-sign (signs)
   "The sign of the largest of numbers with these SIGNS."

@@ -192,9 +192,9 @@ products apart, all multiples of angles expanded, nouns taken apart."
       (catch 'no-sample (algebra-sampled skeleton point))))
 
 (defun algebra-sampled (skeleton point)
-  (cond ((integerp skeleton) (mod skeleton (algebra-prime)))
+  (cond ((integerp skeleton) (algebra-residue skeleton))
         ((rationalp skeleton)
-         (algebra-modulo (* (mod (numerator skeleton) (algebra-prime))
+         (algebra-modulo (* (algebra-residue (numerator skeleton))
                             (algebra-sampled-inverse (denominator skeleton)))))
         ((algebra-kernel-p skeleton) (gethash (algebra-kernel-variable skeleton) point))
         (t (ecase (car skeleton)

@@ -44,3 +44,7 @@ conditions, which vanish; what is apart from zero."
 (core-record analysis-root
   "A root of a polynomial, and what must vanish for it."
   value (conditions '((mlist simp))))
+
+(core-record analysis-judgement
+  "What a method, or a theorem, says: cases [[condition, ..], place], see conditions.mac."
+  method cases)

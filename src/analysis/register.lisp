@@ -22,6 +22,9 @@
 (defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
 (defparameter *analysis-variables* (list "variables" *analysis-none*))
 
+(defparameter *analysis-functions* (list "functions_derived" *analysis-none*)
+  "What equations are derivatives of.")
+
 ;;; Arguments. K is a function, and a matrix where forces are given by theirs.
 
 (core-argument :formula "K" "polynomial")
@@ -66,12 +69,12 @@
 (core-public "Equilibria"
   :forms '(("equations" "equations" "variables")) :options '("unknowns" "where")
   :kinds *analysis-kinds*)
-(core-rule "Equilibria" *analysis-states* "analysis/equilibria" "analysis_equilibria"
+(core-rule "Equilibria" *analysis-states* "analysis/jumps" "analysis_smooth_equilibria"
   "state_equations" *analysis-variables* *analysis-unknowns* *analysis-where*
-  *analysis-laws*)
-(core-rule "Equilibria" *analysis-motions* "analysis/equilibria" "analysis_equilibria_motion"
+  *analysis-laws* *analysis-functions*)
+(core-rule "Equilibria" *analysis-motions* "analysis/jumps" "analysis_smooth_equilibria_motion"
   "LagrangeEquations" "coordinates" *analysis-unknowns* *analysis-where*
-  *analysis-laws*)
+  *analysis-laws* *analysis-functions*)
 
 ;;; The motion that is asked about
 
@@ -79,15 +82,33 @@
   *analysis-where* *analysis-laws*)
 (core-rule "special_cases_sought" :any "analysis/motion_records" "analysis_special_cases"
   *analysis-where* *analysis-laws* *analysis-unknowns*)
-(core-rule "motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
+(core-rule "undisturbed_motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
-(core-rule "motion" *analysis-motions* "analysis/given_solution" "analysis_lagrange_motion"
+(core-rule "undisturbed_motion" *analysis-motions* "analysis/given_solution" "analysis_lagrange_motion"
   "LagrangeEquations" "coordinates" "solution" "special_cases")
-(core-rule "routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
+(core-rule "undisturbed_routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
   "special_cases")
-(core-rule "hamilton_motion" :any "analysis/first_approximation" "analysis_hamilton_motion"
+(core-rule "undisturbed_hamilton_motion" :any "analysis/first_approximation"
+  "analysis_hamilton_motion"
   "HamiltonEquations" "coordinates" "solution" "special_cases")
+(core-rule "motion" *analysis-kinds* "analysis/jumps" "analysis_smooth_motion"
+  "undisturbed_motion" *analysis-functions* *analysis-laws*)
+(loop for motion in '("routh_motion" "hamilton_motion")
+      for undisturbed = (concatenate 'string "undisturbed_" motion)
+      do (core-rule motion *analysis-motions* "analysis/jumps" "analysis_smooth_motion"
+           undisturbed *analysis-functions* *analysis-laws*)
+         (core-rule-same-as motion *analysis-states* undisturbed))
+
+(dolist (given '(nil :file))
+  (core-rule-given given "functions_derived" (if given *analysis-motions* '("lagrangian"))
+    "analysis/jumps" "analysis_functions_of_motion" "Lagrangian" "actions"))
+(core-rule-given "hamiltonian" "functions_derived" '("lagrangian") "analysis/jumps"
+  "analysis_function_alone" "hamiltonian")
+(core-rule "functions_derived" '("poisson") "analysis/jumps" "analysis_function_alone"
+  "hamiltonian")
+(core-rule "functions_derived" '("circuit") "analysis/jumps" "analysis_function_alone"
+  "MixedPotential")
 
 ;;; First approximation and criteria
 
@@ -147,6 +168,23 @@
 (core-rule "Stability" *analysis-motions* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
+
+;;; What is drawn: equilibria with verdicts, numbers put in for parameters
+
+(defparameter *analysis-values* (list "values" *analysis-none*))
+(core-rule "rest_points" *analysis-states* "analysis/rest_points" "analysis_rest_points_state"
+  "state_equations" *analysis-variables* *analysis-values* *analysis-laws*)
+(core-rule "rest_points" *analysis-motions* "analysis/rest_points" "analysis_rest_points_lagrange"
+  "LagrangeEquations" "coordinates" "Lagrangian" "actions" *analysis-values* *analysis-laws*)
+(core-rule-given '("function" $routh) "rest_points" *analysis-kinds* "analysis/rest_points"
+  "analysis_rest_points_lagrange"
+  "RouthEquations" "remaining_coordinates" "RouthFunction" "actions" *analysis-values*
+  *analysis-laws*)
+(loop for (given kinds) in `((("function" $hamilton) ,*analysis-kinds*)
+                             ("hamiltonian" ("lagrangian")))
+      do (core-rule-given given "rest_points" kinds "analysis/rest_points"
+           "analysis_rest_points_hamilton"
+           "HamiltonEquations" "Hamiltonian" "actions" *analysis-values* *analysis-laws*))
 
 ;;; The method of Routh and Lyapunov
 

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/argument_types" "archive/function_spellings" "archive/groups"
+  (core-require "archive/argument_types" "archive/function_values" "archive/groups"
                 "archive/names" "archive/types"))
 
 (defun archive-map-parts (function value)
@@ -197,7 +197,7 @@
 (defun archive-check-integrals (given)
   "A constant is no integral."
   (let ((variables (cdr (gethash "variables" given))))
-    (dolist (item (cdr (gethash "integrals" given)))
+    (dolist (item (and variables (cdr (gethash "integrals" given))))
       (let ((e (if (archive-equation-p item) (third item) item)))
         (unless (some (lambda (x) (archive-occurs-p x e)) variables)
           (core-error "integrals: ~a is a constant" (archive-argument-shown item)))))))

@@ -49,6 +49,8 @@ and always have values."
     (:integrals archive-as-integrals "a list of integrals such as [V0 = x^2 + y^2]")
     (:branches archive-as-branches "a list such as [i1 = L1, i2 = L2]")
     (:interval archive-as-interval "a span of time, such as [t, 0, 10]")
+    (:window archive-as-window
+     "a variable or a velocity with the ends of its axis, such as [theta, -3, 3]")
     (:square archive-as-square "a matrix, such as matrix([1, 0], [0, 2])"))
   "As *archive-types*, for what is typed in the session: velocities are 'diff(q,t), names may have
 subscripts, and a formula may stand for a law of its own.")
@@ -147,6 +149,13 @@ subscripts, and a formula may stand for a law of its own.")
   (let ((items (archive-items value)))
     (unless (= (length (if (eq (first items) '$t) (cdr items) items)) 2) (archive-unfit))
     (mapc #'archive-formula-inside items)))
+
+(defun archive-as-window (value)
+  "What an axis shows, and its two ends."
+  (let ((items (archive-items value)))
+    (unless (= (length items) 3) (archive-unfit))
+    (unless (archive-time-derivative-p (first items)) (archive-a-variable (first items)))
+    (mapc #'archive-formula-inside (rest items))))
 
 (defun archive-as-branches (value)
   "Names of currents or voltages with their inductances or capacitances."

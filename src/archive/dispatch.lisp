@@ -8,16 +8,16 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/argument_checks" "archive/argument_types" "archive/call"
-                "archive/derived" "archive/exact" "archive/groups" "archive/names" "archive/open"
-                "archive/options" "archive/steps" "archive/types"))
+                "archive/derived" "archive/exact" "archive/groups" "archive/names"
+                "archive/needs" "archive/open" "archive/options" "archive/steps" "archive/types"))
 
 (defun archive-dispatch (name arguments)
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-place* nil) (*core-warnings* '())
         (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
-        (*core-has-parameters* t)
+        (*core-has-parameters* t) (*core-unsaved* nil)
         (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*)
-        (*core-partial* nil))
+        (*core-partial* nil) (*core-afterwards* '()))
     (setq arguments (archive-arguments-taken arguments)
           *core-cheaper* (archive-cheaper name arguments)
           *core-size* (archive-size-factor arguments))
@@ -27,6 +27,7 @@
                        (archive-in-time name arguments)))
       (when text (merror "~A" text))
       (core-warn-now)
+      (core-do-afterwards)
       value)))
 
 (defun archive-in-time (name arguments)
@@ -131,7 +132,7 @@ none."
      (let ((archive (archive-of-text "the description" text)))
        (setf (archive-path archive) nil)
        (archive-watched options
-                        (lambda () (archive-run (archive-call-on public archive '() options))))))))
+                        (lambda () (archive-run (archive-call-on public archive '() options) t)))))))
 
 (defun archive-call-system (public positional options)
   (archive-run (archive-call-on public (archive-open-system (car positional)) (cdr positional)
@@ -198,17 +199,33 @@ none."
   "Whether the value of the key NAME is a word of ours, such as field = constant, and no name."
   (member name '("kind" "field" "sign" "algebra") :test #'equal))
 
-(defun archive-run (call)
-  "The value of the call's target, computed in the guard; new steps are saved."
+(defun archive-run (call &optional trial)
+  "The value of the call's target, computed in the guard; new steps are saved, and what the call does
+is done. A TRIAL does not."
   (setq *core-names* (archive-call-names call)
-        *core-has-parameters* (lambda () (archive-has-parameters-p call)))
+        *core-has-parameters* (lambda () (archive-has-parameters-p call))
+        *core-unsaved* (not (archive-saves-p call)))
   (archive-refuse-property-words *core-names*)
   (core-guarded (archive-call-facts call)
                 (lambda ()
-                  (let ((target (core-public-name (archive-call-public call))))
-                    (prog1 (archive-own-lists
-                            (archive-abbreviated call (archive-value call target)))
-                      (archive-save-steps call)
-                      (when *core-partial* (core-signal *core-partial*)))))))
+                  (let ((act (archive-act call)))
+                    (archive-own-lists
+                     (if act
+                         (archive-acted call act trial)
+                         (prog1 (archive-abbreviated
+                                 call (archive-value
+                                       call (core-public-name (archive-call-public call))))
+                           (archive-save-all call))))))))
+
+(defun archive-save-all (call)
+  "Saves the new steps of CALL; one of which there is only a part is an error then."
+  (archive-save-steps call)
+  (when *core-partial* (core-signal *core-partial*)))
+
+(defun archive-acted (call act trial)
+  "The value of the rule ACT; what it is applied to is saved before."
+  (let ((inputs (archive-inputs call act)))
+    (archive-save-all call)
+    (unless trial (core-apply-rule act inputs))))
 
 (setq *core-dispatcher* #'archive-dispatch)

@@ -9,7 +9,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/argument_types" "archive/call" "archive/groups" "archive/keys"
-                "archive/names" "archive/open" "archive/results" "archive/steps" "archive/types"))
+                "archive/names" "archive/needs" "archive/open" "archive/results"
+                "archive/types" "core/nearest"))
 
 (defun archive-option-name (equation)
   (let ((left (cadr equation)))
@@ -39,9 +40,10 @@
 (defun archive-check-option (option value)
   (let ((type (gethash option *core-options*)))
     (unless (or (null type) (archive-option-fits type value))
-      (core-error "the option ~a is ~a, found ~a" option
+      (core-error "the option ~a is ~a, found ~a~@[; did you mean ~a?~]" option
                   (if (consp type) (core-choice type) (cdr (assoc type *archive-option-phrases*)))
-                  (core-words (list value))))))
+                  (core-words (list value))
+                  (and (consp type) (core-nearest (core-words (list value)) type))))))
 
 (defun archive-check-program-form (call)
   "An error unless there is a program of what is called."
@@ -90,6 +92,14 @@
   "Names of the quantities, options and keys that count for NAME in this CALL: by the rules that
 its options choose, and the conditions of those that they do not."
   (archive-walk name (lambda (name) (archive-next-touched call name))))
+
+(defun archive-touched-by (call)
+  "The same for CALL, with what it does at its end."
+  (let ((act (archive-act call)))
+    (append (archive-touched call (core-public-name (archive-call-public call)))
+            (when act
+              (loop for source in (archive-rule-sources act)
+                    append (archive-touched call (archive-input-name source)))))))
 
 (defun archive-next-touched (call name)
   (unless (nth-value 1 (gethash name (archive-call-given call)))
@@ -181,7 +191,7 @@ neglected in a field."
 (defun archive-check-effects (call names)
   "An error for the first of the options NAMES that nothing in this call asks for."
   (when (set-difference names (archive-always-options call) :test #'string=)
-    (let ((touched (archive-touched call (core-public-name (archive-call-public call)))))
+    (let ((touched (archive-touched-by call)))
       (dolist (name names)
         (unless (archive-option-counts-p call name touched)
           (core-error "the option ~a has no effect beside the others; leave it out" name))))))

@@ -10,8 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/compounds" "archive/function_spellings" "archive/function_values"
-                "archive/plain_simplifier" "archive/simplify" "archive/tokens"))
+  (core-require "archive/compounds" "archive/function_values" "archive/plain_simplifier"
+                "archive/simplify" "archive/tokens"))
 
 (defparameter *archive-open-functions* 1000 "The most functions that an archive may leave open.")
 

@@ -28,18 +28,18 @@
 
 (defun archive-calling-plain-signs (function)
   "Calls FUNCTION while signs are those of archive-plain-sign, and nothing is known of names."
-  (let* ((names '($sign $csign $asksign kindp))
-         (functions (mapcar #'symbol-function names))
-         (kindp (symbol-function 'kindp)))
+  (let ((functions (mapcar #'symbol-function *core-sign-functions*))
+        (kindp (symbol-function 'kindp)))
     (unwind-protect
          (progn
-           (dolist (name '($sign $csign $asksign))
+           (dolist (name (remove 'kindp *core-sign-functions*))
              (setf (symbol-function name) #'archive-plain-sign))
            (setf (symbol-function 'kindp)
                  (lambda (e property)
                    (and (not (archive-users-name-p e)) (funcall kindp e property))))
            (funcall function))
-      (loop for name in names for old in functions do (setf (symbol-function name) old)))))
+      (loop for name in *core-sign-functions* for old in functions
+            do (setf (symbol-function name) old)))))
 
 ;;; Signs
 

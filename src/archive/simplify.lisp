@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/tokens" "archive/plain_simplifier"))
+  (core-require "archive/tokens" "archive/plain_simplifier" "core/bigfloats"))
 
 (defvar *archive-reader* nil
   "The reader whose text is being simplified, for the place of an error.")
@@ -127,6 +127,7 @@ factors."
 (defun archive-negative (e)
   "-E"
   (cond ((floatp e) (- e))
+        (($bfloatp e) (core-bigfloat-negative e))
         ((mnump e) (timesk -1 e))
         (t (archive-simplified (list '(mtimes) -1 e)))))
 

@@ -7,11 +7,15 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/compounds" "archive/parser" "archive/simplify" "archive/tokens"))
+  (core-require "archive/compounds" "archive/parser" "archive/simplify" "archive/tokens"
+                "core/bigfloats"))
 
 (defvar *archive-out* nil
   "What is written, the last piece first. (GCL's string streams take time in squares.)")
 (defvar *archive-spelled-depth* 0 "Levels of nesting so far.")
+
+(defvar *archive-bigfloats* nil
+  "Whether bigfloats are written, as decimals of all their digits: in tables of numerical results.")
 
 (defparameter *archive-levels*
   '(:any 0 :or 1 :and 2 :not 3 :relation 4 :sum 5 :product 6 :sign 7 :power 8 :atom 9)
@@ -97,7 +101,8 @@ one."
          (archive-put (archive-spell-integer (cadr e)))
          (archive-put "/")
          (archive-put (archive-spell-integer (caddr e))))
-        (t (archive-unspellable "a bigfloat"))))
+        (t (archive-put (or (and *archive-bigfloats* (core-bigfloat-text e))
+                            (archive-unspellable "a bigfloat"))))))
 
 ;; How an expression is seen: what is written first, and how strongly it binds
 
@@ -112,7 +117,10 @@ one."
 
 (defun archive-without-minus (e)
   "-E, for an E that leads with a negative number, as a form to be written."
-  (flet ((opposite (number) (if (floatp number) (- number) (timesk -1 number))))
+  (flet ((opposite (number)
+           (cond ((floatp number) (- number))
+                 (($bfloatp number) (core-bigfloat-negative number))
+                 (t (timesk -1 number)))))
     (cond ((mnump e) (opposite e))
           ((and (eql (cadr e) -1) (cdddr e)) (cons (car e) (cddr e)))
           ((eql (cadr e) -1) (caddr e))
@@ -361,9 +369,10 @@ names."
 (defun archive-settled-text (e &key doubles)
   "The text of E that is spelled the same after it was read: Maxima may order the factors of a
 product anew when it is read."
-  (loop with text = (archive-spell e)
-        repeat 5
-        do (let ((again (archive-spell (archive-parse-value text :doubles doubles :relations t))))
-             (when (string= again text) (return text))
-             (setq text again))
-        finally (return text)))
+  (let ((*archive-bigfloats* doubles))
+    (loop with text = (archive-spell e)
+          repeat 5
+          do (let ((again (archive-spell (archive-parse-value text :doubles doubles :relations t))))
+               (when (string= again text) (return text))
+               (setq text again))
+          finally (return text))))

@@ -6,146 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/call" "archive/derived" "archive/groups" "archive/keys" "archive/results"
-                "archive/sections" "archive/speller" "archive/store" "archive/types"))
-
-(defstruct archive-need
-  keys     ; keys of [system] the quantity depends on; "*" is the whole structure
-  extras)  ; arguments, options and hand-edited results it depends on, as text
-
-(defparameter *archive-program-form* '("form" $program)
-  "The condition of a rule that gives a program.")
-
-(defun archive-rule (call name)
-  (core-find-rule name (archive-call-kind call)
-                  (lambda (condition) (archive-meets-p call condition))))
-
-(defun archive-meets-p (call condition)
-  "Whether the call or the archive gives the option CONDITION, or (option value) with this value;
-:file: whether the system is a file; (:edited name): whether its result NAME was edited by hand."
-  (cond ((eq condition :file)
-         (and (archive-call-archive call) (archive-path (archive-call-archive call)) t))
-        ((stringp condition)
-         (or (nth-value 1 (gethash condition (archive-call-given call)))
-             (nth-value 1 (archive-key-value call condition))))
-        ((eq (first condition) :edited)
-         (archive-edited-p call (second condition)))
-        (t (eq (archive-option call (first condition) nil) (second condition)))))
-
-(defun archive-edited-p (call name)
-  "The digest of the stored result NAME when it was edited by hand, else nil."
-  (let ((section (archive-own-section call name)))
-    (and section (archive-edited-digest section))))
-
-(defun archive-input-name (input) (if (consp input) (car input) input))
-
-(defun archive-missing (call name)
-  "The error for a quantity that neither the call nor the archive gives."
-  (let ((archive (archive-call-archive call)) (kind (archive-call-kind call)))
-    (cond ((archive-wanted-option name kind)
-           (core-error "give the option ~a = .. as well" (archive-wanted-option name kind)))
-          ((and archive (gethash name *core-publics*))
-           (core-error "~a is for ~{~a~^, ~} archives, and ~:[this description~;~:*~a~] is of ~
-                        kind ~a"
-                       name (core-public-kinds (gethash name *core-publics*))
-                       (archive-path archive) kind))
-          (archive
-           (core-error "~a is needed, and ~:[this description~;~:*~a~] does not give it; write ~
-                        ~a = .. into [system] or into the call"
-                       name (archive-path archive) name))
-          (t (core-error "~a is needed; give it as an argument or as an option ~a = .."
-                         name name)))))
-
-(defun archive-wanted-option (name kind)
-  "An option without which there is no rule for NAME in archives of KIND, or nil."
-  (let ((rule (core-find-rule name kind (constantly t))))
-    (and rule (null (core-find-rule name kind (constantly nil)))
-         (archive-input-name (rule-given rule)))))
-
-;;; What a quantity depends on
-
-(defun archive-needs (call name)
-  "The archive-need of the quantity NAME."
-  (or (gethash name (archive-call-needs call))
-      (let ((need (make-archive-need :keys '() :extras '())))
-        (setf (gethash name (archive-call-needs call)) need)
-        (archive-collect-needs call name need)
-        need)))
-
-(defun archive-collect-needs (call name need)
-  (multiple-value-bind (value given) (gethash name (archive-call-given call))
-    (let ((rule (archive-rule call name)))
-      (cond (given
-             (push (archive-option-text name value) (archive-need-extras need)))
-            ((equal name "description") (push "*" (archive-need-keys need)))
-            ((null rule) (push name (archive-need-keys need)))
-            (t (dolist (input (archive-rule-sources rule))
-                 (archive-add-needs call need (archive-input-name input)))
-               (when (rule-function rule) (archive-add-edited call name need)))))))
-
-(defun archive-rule-sources (rule)
-  "What a quantity by RULE depends on: the condition of the rule too."
-  (append (archive-condition-sources (rule-given rule))
-          (cond ((rule-same rule) (list (rule-same rule)))
-                ((rule-record rule) (list (rule-record rule)))
-                (t (rule-inputs rule)))))
-
-(defun archive-condition-sources (condition)
-  (cond ((or (null condition) (eq condition :file)) '())
-        ((and (consp condition) (eq (first condition) :edited)) '())
-        (t (list condition))))
-
-(defun archive-add-needs (call need name)
-  (let ((more (archive-needs call name)))
-    (setf (archive-need-keys need)
-          (union (archive-need-keys need) (archive-need-keys more) :test #'equal)
-          (archive-need-extras need)
-          (union (archive-need-extras need) (archive-need-extras more) :test #'equal))))
-
-(defun archive-add-edited (call name need)
-  "A result edited by hand is itself something to depend on."
-  (let ((edited (archive-edited-p call name)))
-    (when edited (push (format nil "~a edited ~a" name edited) (archive-need-extras need)))))
-
-(defun archive-own-section (call name)
-  "The section with the whole result NAME of this call's arguments and options, or nil."
-  (and (archive-call-archive call) (archive-path (archive-call-archive call))
-       (gethash name *core-publics*)
-       (let ((section (archive-stored-section (archive-call-archive call) name
-                                              (archive-options-of call name))))
-         (and section (not (archive-partial-p section)) section))))
-
-(defun archive-edited-extra-p (extra) (search " edited sha256:" extra))
-
-(defun archive-options-of (call name)
-  "The arguments and options of the call that NAME depends on, as one text."
-  (let* ((need (archive-needs call name))
-         (extras (remove-if #'archive-edited-extra-p (archive-need-extras need))))
-    (format nil "~{~a~^, ~}"
-            (sort (union extras (archive-overruled-texts call need) :test #'string=) #'string<))))
-
-(defun archive-overruled-texts (call need)
-  "The keys of [system] that the call overrules and that count for NEED, as texts."
-  (loop with kind = (archive-call-kind call)
-        for (key . value) in (archive-call-overruled call)
-        when (archive-counts-p "system" key kind (archive-counted-keys need))
-          collect (archive-option-text key value)))
-
-(defun archive-option-text (name value)
-  (format nil "~a = ~a" name (archive-spell value)))
-
-(defun archive-counted-keys (need)
-  "The keys of [system] that count in `from': what is assumed of the parameters always does."
-  (union '("parameters") (archive-need-keys need) :test #'equal))
-
-(defun archive-digest-of (call name)
-  "The digest `from' of the result NAME: what it was computed from."
-  (let ((need (archive-needs call name)))
-    (archive-from-digest (archive-call-archive call) (archive-counted-keys need)
-                         (sort (remove-if (lambda (extra)
-                                            (eql 0 (search (format nil "~a edited " name) extra)))
-                                          (copy-list (archive-need-extras need)))
-                               #'string<))))
+  (core-require "archive/call" "archive/derived" "archive/groups" "archive/keys" "archive/needs"
+                "archive/results" "archive/sections" "archive/speller"))
 
 ;;; Values
 
@@ -170,13 +32,6 @@ default."
           ((archive-own-section call name) (archive-stored-value call name rule))
           (rule (archive-rule-value call name rule))
           (t (archive-key-value call name)))))
-
-(defun archive-key-value (call key)
-  (let ((equation (and (archive-call-archive call)
-                       (find (core-symbol key)
-                             (cdr (archive-description (archive-call-archive call)))
-                             :key (lambda (e) (and (archive-equation-p e) (cadr e)))))))
-    (values (and equation (caddr equation)) (and equation t))))
 
 (defun archive-structure (call)
   "The description without the keys of the analysis. `values' stay for remarks about results, such
@@ -208,7 +63,20 @@ as the size of what is neglected, and count in no digest: a formula must not dep
   (cond ((rule-same rule) (values (archive-value call (rule-same rule)) t))
         ((rule-record rule)
          (values (archive-field (archive-value call (rule-record rule)) (rule-field rule)) t))
+        ((rule-tried rule) (values (archive-tried-value call (rule-tried rule)) t))
         (t (values (archive-compute call name rule) t))))
+
+(defparameter *archive-trying-time* 10 "Seconds for what is only tried.")
+
+(defun archive-tried-value (call name)
+  "[value] of the quantity NAME, or the text of the error or stop that ends it."
+  (multiple-value-bind (value text)
+      (core-caught
+       (lambda ()
+         (multiple-value-bind (value stop)
+             (core-within *archive-trying-time* (lambda () (archive-value call name)))
+           (if stop (core-signal stop) value))))
+    (or text (list '(mlist simp) value))))
 
 (defun archive-field (record field)
   "A part of a record by its name, or of a list by its number."
@@ -287,7 +155,9 @@ first: those that its section states, else the archive's."
   (when (eq (archive-option call "verbose" nil) t)
     (core-note "~a took ~,3f s~@[; ~{~a~^; ~}~]" name
                (/ (- (get-internal-real-time) began) (float internal-time-units-per-second 1d0))
-               (archive-derived-left-out derived))))
+               (archive-derived-left-out derived))
+    (loop for (key . value) in (reverse (archive-derived-report derived))
+          do (core-note "~a: ~a" key (archive-spell value)))))
 
 (defun archive-form-taken (call rule derived)
   "The form of what RULE gave, as text: the one asked for, or that to which the derivation came; nil
@@ -322,8 +192,15 @@ where there is only one."
   "What file_search found is not the user's to write in, unless he says so."
   (or (archive-option call "result" nil) (not (archive-found (archive-call-archive call)))))
 
+(defun archive-saves-p (call)
+  "Whether new steps are written to a file."
+  (let ((archive (archive-call-archive call)))
+    (and archive
+         (or (archive-path archive) (archive-option call "result" nil))
+         (archive-option call "save" (archive-save-default call)))))
+
 (defun archive-save-steps (call)
   "Writes the sections of all steps computed in this call, unless save = false."
-  (when (and (archive-call-new call) (archive-option call "save" (archive-save-default call)))
+  (when (and (archive-call-new call) (archive-saves-p call))
     (archive-save (archive-call-archive call) (reverse (archive-call-new call))
                   (archive-option call "result" nil))))

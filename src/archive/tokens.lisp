@@ -3,9 +3,13 @@
 ;;; nothing is evaluated and the Lisp reader never sees the text. A text is a native string:
 ;;; Unicode characters on SBCL, the bytes of UTF-8 on GCL, so that what goes back to the
 ;;; terminal shows as it was typed. Numbers are exact (17.76 is 444/25) unless the reader wants
-;;; doubles. Look first at archive-next-token!.
+;;; doubles, or long decimals, bigfloats of as many digits as are written. Look first at
+;;; archive-next-token!.
 
 (in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "core/bigfloats"))
 
 (deftype archive-text-string ()
   #+sbcl '(simple-array character (*))
@@ -147,11 +151,12 @@ token that the reader stands on."
         (archive-maxima-number number))))
 
 (defun archive-read-exponent (reader position)
-  "Two values: the decimal exponent that begins at POSITION (0 if there is none) and where it
-ends."
-  (let ((text (reader-text reader)) (end (reader-end reader)))
-    (if (not (and (< position end) (char-equal (char text position) #\e)))
-        (values 0 position)
+  "Three values: the decimal exponent that begins at POSITION (0 if there is none), where it ends, and
+whether it is one of a long decimal, 1.50b0, which tables of numerical results may hold."
+  (let* ((text (reader-text reader)) (end (reader-end reader))
+         (long (and (reader-doubles reader) (< position end) (char= (char text position) #\b))))
+    (if (not (or long (and (< position end) (char-equal (char text position) #\e))))
+        (values 0 position nil)
         (let* ((sign (and (< (1+ position) end) (find (char text (1+ position)) "+-")))
                (from (+ position (if sign 2 1)))
                (to (archive-digits-end text from end)))
@@ -162,10 +167,10 @@ ends."
                            (char text position)))
           (let ((size (if (> (- to from) 9) most-positive-fixnum
                           (parse-integer text :start from :end to))))
-            (when (> size *archive-decimal-exponent*)
+            (when (> size (if long *archive-digits* *archive-decimal-exponent*))
               (archive-fault reader position "the exponent is larger than ~d"
-                             *archive-decimal-exponent*))
-            (values (if (eql sign #\-) (- size) size) to))))))
+                             (if long *archive-digits* *archive-decimal-exponent*)))
+            (values (if (eql sign #\-) (- size) size) to long))))))
 
 (defun archive-read-number! (reader)
   "Takes the integer or decimal at the reader's position."
@@ -178,14 +183,13 @@ ends."
     (when (> (- to from) *archive-digits*)
       (archive-fault reader from "a number of ~d digits; at most ~d are read" (- to from)
                      *archive-digits*))
-    (multiple-value-bind (exponent after) (archive-read-exponent reader to)
-      (setf (reader-value reader)
-            (if (and (not point) (= after to))
-                (parse-integer text :start from :end to)
-                (archive-decimal reader
-                                 (parse-integer (remove #\. (subseq text from to)))
-                                 (if point (- to whole 1) 0)
-                                 exponent)))
+    (multiple-value-bind (exponent after long) (archive-read-exponent reader to)
+      (let ((digits (remove #\. (subseq text from to))) (places (if point (- to whole 1) 0)))
+        (setf (reader-value reader)
+              (cond (long (core-bigfloat (* (parse-integer digits) (expt 10 (- exponent places)))
+                                         (length digits)))
+                    ((and (not point) (= after to)) (parse-integer digits))
+                    (t (archive-decimal reader (parse-integer digits) places exponent)))))
       (when (and (< after end) (let ((c (char text after))) (or (archive-word-p c) (char= c #\.))))
         (archive-fault reader after
                        "found `~a' directly after a number, expected an operator; write * for a ~

@@ -6,8 +6,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_from_expressions"
-                "algebra/program_nodes" "circuits/elements" "circuits/rates_by_branches"
-                "circuits/rates_judge" "forms/rates"))
+                "algebra/program_nodes" "circuits/elements" "circuits/rates_balance"
+                "circuits/rates_by_branches" "circuits/rates_judge" "forms/rates"))
 
 ;;; What stores energy: branches of one sort, independent ones first. A shift is (row . rate): how
 ;;; the state of a branch follows from the independent ones, B, and what sources add to its rate.
@@ -105,15 +105,19 @@ dependent); RIGHT gives what Kirchhoff's laws leave for a branch."
         (let ((mass (append i-rows (circuits-shifted-rows u-rows (length i-rows))))
               (right (append i-right u-right)))
           (circuits-check-rates run mass right)
-          (circuits-rates-record network mass right))))))
+          (circuits-rates-record run mass right))))))
 
-(defun circuits-rates-record (network mass right)
-  (let ((states (append (cdr (circuits-network-currents network))
-                        (cdr (circuits-network-voltages network)))))
-    (make-forms-rates
-     :program *algebra-program* :states states :mass mass
-     :outputs (list (cons '$rates (cons :list right)))
-     :angles (forms-angles states right))))
+(defun circuits-rates-record (run mass right)
+  (let* ((network (circuits-run-network run))
+         (states (append (cdr (circuits-network-currents network))
+                         (cdr (circuits-network-voltages network)))))
+    (multiple-value-bind (balance untold) (circuits-balance run states)
+      (when balance (circuits-check-balance run mass right balance))
+      (make-forms-rates
+       :program *algebra-program* :states states :mass mass
+       :outputs (list (cons '$rates (cons :list right)))
+       :angles (forms-angles states right)
+       :integrals (and balance (list balance)) :untold (and untold (list untold))))))
 
 ;;; For Maxima.
 

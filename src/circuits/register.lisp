@@ -49,7 +49,8 @@
 
 (core-middle "rates" '("circuit") "circuits/rates_of_circuits" "circuits_circuit_rates" "circuit")
 (core-rule-given "potential" "rates" '("circuit") "forms/rates_of_systems" "forms_equation_rates"
-  "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
+  "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp)))
+  '("integrals" ((mlist simp))) '("level" ((mlist simp))))
 (core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("circuit") "hamilton_rates" :given '("function" $hamilton))
 

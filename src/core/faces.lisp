@@ -8,7 +8,7 @@
 (defvar *core-dispatcher* nil
   "What answers a call: a function of a public name and the arguments. The dispatcher's part sets
 it.")
-(defparameter *core-version* "0.2.0" "The version of the three packages.")
+(defparameter *core-version* "0.3.0" "The version of the three packages.")
 (defvar *core-faces* '() "Names of the faces loaded.")
 
 (defun core-load-registers ()

@@ -113,8 +113,24 @@ is declared of a name, constant, real, is a name of Maxima's."
 (defun core-session-facts ()
   "The relations that the session assumes."
   (loop for place in (core-visible-contexts)
-        append (remove-if-not (lambda (fact) (and (core-relation-p fact) (core-users-fact-p fact)))
+        append (remove-if-not (lambda (fact)
+                                (and (core-relation-p fact) (core-users-fact-p fact)
+                                     (not (core-rounded-p fact))))
                               (cdr (facts1 place)))))
+
+(defun core-rounded-p (e)
+  "Whether E holds a decimal of more than 15 digits: beside a < %pi/2 Maxima notes a < 1.57079632..,
+which is more than was said."
+  (cond ((floatp e)
+         (let ((digits (string-left-trim "0" (remove-if-not #'digit-char-p
+                                                            (core-mantissa-text e)))))
+           (> (length digits) 15)))
+        ((consp e) (some #'core-rounded-p (cdr e)))))
+
+(defun core-mantissa-text (x)
+  (let* ((text (let ((*read-default-float-format* 'double-float)) (prin1-to-string x)))
+         (end (position-if #'alpha-char-p text)))
+    (subseq text 0 end)))
 
 ;;; Maxima's data base while we compute
 

@@ -9,6 +9,15 @@
 
 (defvar *core-guarded* nil "True inside the guard.")
 
+(defparameter *core-sign-functions* '($sign $csign $asksign kindp)
+  "Functions of Maxima that know what was assumed or declared, or ask: others stand for them while
+an archive is read.")
+
+;; In a saved core SBCL calls functions by their place. The first time that one is replaced it looks
+;; through all code for such calls, 5 ms each: at the start, not in somebody's first call.
+#+sbcl (dolist (name (cons 'retrieve *core-sign-functions*))
+         (setf (symbol-function name) (symbol-function name)))
+
 (defun core-refuse-question (message &rest ignored)
   (declare (ignore ignored))
   (merror "~A" (format nil "undecided question: ~a"

@@ -100,6 +100,16 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
   (dolist (text (reverse *core-later*)) (core-warn "~a" text))
   (setq *core-later* '()))
 
+;;; What is shown to the person beside the result, in his own session
+
+(defvar *core-afterwards* '() "Functions that are called once the call is over, newest first.")
+
+(defun core-afterwards (function) (push function *core-afterwards*))
+
+(defun core-do-afterwards ()
+  (mapc #'funcall (reverse *core-afterwards*))
+  (setq *core-afterwards* '()))
+
 (defun $core_error (&rest items) (core-signal (core-words items)))
 
 (defun $core_undecided (&rest items) (core-undecided "~a" (core-words items)))
@@ -128,6 +138,15 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
 with this sentence."
   (core-report "partial" t)
   (setq *core-partial* (apply #'format nil control arguments)))
+
+(defvar *core-unsaved* nil "Whether nothing is written that would say what was left out.")
+
+(defun $core_left_case (condition)
+  "What was left out is a case, such as \"a = 0\": a call that saves nothing says so."
+  (let ((text (format nil "the case ~a" condition)))
+    (when (and *core-unsaved* (not (member text *core-left-out* :test #'string=)))
+      (core-warn-later "~a is left out" text))
+    ($core_left_out text)))
 
 (defun core-factored () (setq *core-level* '$factored))
 

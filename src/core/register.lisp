@@ -20,7 +20,9 @@
 
 (defstruct (core-rule (:conc-name rule-))
   kinds given part function inputs same record field
-  kept)  ; t for a middle quantity: what it gives is kept for the calls that follow
+  kept   ; t for a middle quantity: what it gives is kept for the calls that follow
+  tried  ; the quantity of which this one is [value], or the text of the error that ends it
+  act)   ; t for what a call does at its end
 
 (defun core-public (name &key forms trailing options kinds numerical)
   "States a public function. FORMS of calls on expressions; TRAILING arguments after a system."
@@ -51,7 +53,8 @@ key of [system] for which nothing is stated has its type there."
 ;;; Rules
 
 (defun core-same-case-p (rule other)
-  (and (equal (rule-kinds rule) (rule-kinds other)) (equal (rule-given rule) (rule-given other))))
+  (and (equal (rule-kinds rule) (rule-kinds other)) (equal (rule-given rule) (rule-given other))
+       (eq (rule-act rule) (rule-act other))))
 
 (defun core-add-rule (name rule)
   (setf (gethash name *core-rules*)
@@ -82,6 +85,18 @@ name), where the archive's result NAME was edited by hand."
 (defun core-rule-field (name kinds record field)
   "NAME is the part FIELD of the quantity RECORD."
   (core-add-rule name (make-core-rule :kinds kinds :record record :field field)))
+
+(defun core-rule-tried (name kinds other)
+  "NAME is [value] of the quantity OTHER, or the text of the error that ends it: for what does
+without."
+  (core-add-rule name (make-core-rule :kinds kinds :tried other)))
+
+(defun core-act (name given kinds part function &rest inputs)
+  "States what a call of the public function NAME does at its end, such as drawing: FUNCTION of PART
+applied to INPUTS, NAME itself perhaps among them, gives the value of the call. It is done in each
+call; what it gives is stored nowhere. GIVEN as in core-rule-given, nil for always."
+  (core-add-rule name (make-core-rule :kinds kinds :given given :part part :act t
+                                      :function (core-symbol function) :inputs inputs)))
 
 ;;; Kinds of archive
 
@@ -154,11 +169,11 @@ those of core-rule-given."
   (+ (cond ((null (rule-given rule)) 2) ((consp (rule-given rule)) 0) (t 1))
      (if (eq (rule-kinds rule) :any) 3 0)))
 
-(defun core-find-rule (name kind given)
-  "The rule for quantity NAME, or nil."
+(defun core-find-rule (name kind given &optional act)
+  "The rule for quantity NAME, or nil; with ACT that for what a call of NAME does."
   (let ((best nil))
     (dolist (rule (gethash name *core-rules*) best)
-      (when (and (core-rule-fits rule kind given)
+      (when (and (eq (rule-act rule) act) (core-rule-fits rule kind given)
                  (or (null best) (< (core-rule-rank rule) (core-rule-rank best))))
         (setq best rule)))))
 

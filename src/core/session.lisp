@@ -18,7 +18,7 @@
     $file_search_tests $file_search_usage $maxima_userdir $maxima_tempdir $maxima_objdir
     $features $% $%% $_ $__ $infolists $prompt $linel $stdin $stdout $transcript $debugmode
     $showtime $lasttime $plot_options $gnuplot_command $gnuplot_view_args $gnuplot_term
-    $gnuplot_out_file $random $version $build_info $ttyoff $gensumnum $testsuite_files
+    $gnuplot_out_file $wxplot_size $wxplot_usesvg $random $version $build_info $ttyoff $gensumnum $testsuite_files
     $share_testsuite_files $factor_max_degree_print_warning)
   "Variables that are not options of a computation, or whose change must last.")
 
@@ -287,7 +287,8 @@ Lisp."
   "Calls FUNCTION while no variable of the user has a value; those that come into being are put away
 for the next time."
   (let ((lists (core-information-lists))
-        (users (append (cdr $values) (remove-if-not #'boundp (cdr $arrays)))))
+        (users (append (set-difference (cdr $values) *core-kept-variables*)
+                       (remove-if-not #'boundp (cdr $arrays)))))
     (core-with-values
      (append lists users (mapcar #'car *core-kept-values*))
      (mapcar #'core-born-list lists)

@@ -49,11 +49,18 @@
     (incf (core-deadline-began deadline) ticks)
     (when (core-deadline-at deadline) (incf (core-deadline-at deadline) ticks))))
 
+(defvar *core-uncounted-ticks* 0 "Internal real time that was not counted so far.")
+
 (defun core-unhurried (function)
   "Calls FUNCTION, which the watch neither stops nor counts."
-  (let ((began (get-internal-real-time)))
+  (let ((began (get-internal-real-time)) (within *core-busy*))
     (unwind-protect (let ((*core-busy* t)) (funcall function))
-      (core-postpone (- (get-internal-real-time) began)))))
+      (let ((ticks (- (get-internal-real-time) began)))
+        (unless within (incf *core-uncounted-ticks* ticks))
+        (core-postpone ticks)))))
+
+(defun core-uncounted-seconds ()
+  (/ *core-uncounted-ticks* internal-time-units-per-second))
 
 (setq *core-loading* #'core-unhurried)
 

@@ -9,8 +9,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_exchange"
                 "algebra/program_from_expressions" "algebra/program_nodes" "forms/actions"
-                "forms/dynamics" "forms/equations_as_program"
-                "forms/fixed" "forms/judge" "forms/momenta" "forms/momenta_judge" "forms/program_judge"
+                "forms/dynamics" "forms/equations_as_program" "forms/judge" "forms/momenta" "forms/momenta_judge" "forms/program_judge"
                 "forms/rates" "forms/rates_of_momenta" "forms/rates_of_motion"))
 
 (core-record forms-wanted-form
@@ -26,7 +25,7 @@ coordinates to be left out; ROTORS: coordinates that are left out in any form."
       ($routh (forms-routh-of-cyclic dynamics wanted (forms-cyclic-names dynamics wanted)))
       (t (if rotors
              (forms-routh-of-cyclic dynamics wanted rotors)
-             (forms-rates-of-dynamics dynamics))))))
+             (forms-rates-of-dynamics dynamics (cdr (forms-wanted-form-names wanted))))))))
 
 (defun forms-hamilton-of-wanted (dynamics wanted rotors)
   (forms-check-momentum-names dynamics wanted (forms-task-q (forms-dynamics-task dynamics)))
@@ -41,7 +40,8 @@ coordinates to be left out; ROTORS: coordinates that are left out in any form."
     (when (= (length cyclic) (length (forms-task-q (forms-dynamics-task dynamics))))
       (core-error "all coordinates are cyclic: nothing is left but the momenta ~{~a~^, ~}"
                   (loop for (nil . p) in constant collect (core-words (list p)))))
-    (forms-with-given-momenta (forms-routh-rates dynamics constant) wanted)))
+    (forms-with-given-momenta
+     (forms-routh-rates dynamics (cdr (forms-wanted-form-names wanted)) constant) wanted)))
 
 (defun forms-named-momenta (dynamics wanted coordinates)
   "((coordinate . name of its momentum) ..) in the order of all coordinates."
@@ -96,12 +96,6 @@ coordinates to be left out; ROTORS: coordinates that are left out in any form."
                   (core-words (list (cons '(mlist simp) q)))))
     (let ((obstacle (forms-cyclic-obstacle dynamics x)))
       (when obstacle (core-error "~a is not cyclic: ~a" (core-words (list x)) obstacle)))))
-
-(defun forms-nought-p (elements point)
-  "Whether all ELEMENTS vanish."
-  (or (every (lambda (element) (eql element 0)) elements)
-      (let ((values (catch 'forms-no-value (forms-program-values elements point))))
-        (and values (every #'forms-negligible-p values)))))
 
 (defun forms-slopes-by (elements x)
   (loop for element in elements

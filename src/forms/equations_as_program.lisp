@@ -14,6 +14,7 @@
                 "forms/fixed" "forms/judge" "forms/program_judge" "forms/value"))
 
 (defstruct forms-program-terms
+  function                      ; L
   momenta slopes damping forces ; p_i, dL/dq_i, dR/dq_i', Q_i: lists of elements
   places velocities)            ; nodes
 
@@ -23,7 +24,7 @@
         (velocities (mapcar #'algebra-program-input v))
         (function (algebra-program-element (forms-system-function system))))
     (make-forms-program-terms
-     :places places :velocities velocities
+     :function function :places places :velocities velocities
      :momenta (algebra-program-gradient function velocities)
      :slopes (algebra-program-gradient function places)
      :damping (algebra-program-gradient

@@ -124,10 +124,22 @@ not decided which branch holds there."
                                     (catch 'forms-no-branch (forms-branch e at-point))))))
          e)))
 
+(defun $forms_open_kink (e)
+  "A function with branches whose derivative E still has as a noun: which branch holds is open."
+  (cond ((atom e) nil)
+        ((eq (caar e) '%derivative) (forms-first-kinked (cadr e)))
+        (t (some #'$forms_open_kink (cdr e)))))
+
+(defun forms-first-kinked (e)
+  (cond ((atom e) nil)
+        ((member (caar e) *forms-kinked*) e)
+        (t (some #'forms-first-kinked (cdr e)))))
+
 ;;; Jumps: a derivative taken by a formula says nothing of a function that jumps at the point.
 
 (defparameter *forms-stepping*
-  '($floor $ceiling %round %truncate $mod %kron_delta %hstep $charfun)
+  '($floor $ceiling %round %truncate $mod %kron_delta %hstep $charfun
+    $isqrt $inrt $totient $moebius $divsum $next_prime $prev_prime)
   "Functions that have jumps wherever they move.")
 
 (defun forms-smooth-at-p (e at-point)
@@ -138,10 +150,10 @@ not decided which branch holds there."
       ((%acot %acsch) (member (sign (second e)) '($pos $neg $pn)))
       (t (not (member (caar e) *forms-stepping*))))))
 
-(defun forms-jump-at (e at-point)
-  "A function in E that may jump at the point, or nil."
+(defun forms-jump-at (e at-point moving)
+  "A function in E that may jump at the point, or nil; the names MOVING move."
   (cond ((atom e) nil)
-        ((some (lambda (part) (forms-jump-at part at-point)) (cdr e)))
-        ((and (notevery (lambda (part) (alike1 part (funcall at-point part))) (cdr e))
-              (not (forms-smooth-at-p e at-point)))
+        ((some (lambda (part) (forms-jump-at part at-point moving)) (cdr e)))
+        ((and (not (forms-smooth-at-p e at-point))
+              (some (lambda (name) (some (lambda (part) (among name part)) (cdr e))) moving))
          e)))

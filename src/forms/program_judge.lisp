@@ -174,6 +174,12 @@ constraints in names inside."
         (setf (gethash (algebra-node-index node) values) (forms-node-value node #'value point)))
       (mapcar #'value elements))))
 
+(defun forms-nought-p (elements point)
+  "Whether all ELEMENTS vanish."
+  (or (every (lambda (element) (eql element 0)) elements)
+      (let ((values (catch 'forms-no-value (forms-program-values elements point))))
+        (and values (every #'forms-negligible-p values)))))
+
 (defun forms-node-value (node value point)
   (let ((left (algebra-node-left node)) (right (algebra-node-right node)))
     (flet ((x () (funcall value left)) (y () (funcall value right)))

@@ -16,12 +16,19 @@ OUTPUTS ((name . value) ..) have X as `rates'. MASS: nil for the identity, else 
 factorisation, what is divided by, and the size that it is of where it is not small. SPLIT: nil, or
 the number n where x = (q, v), q' = v. CYCLIC: coordinates whose velocities are the output
 `quadratures'; MOMENTA: those of the states that are parameters in other forms. INERTIA: elements
-that depend on states that are no velocities, or on the time, where M does."
+that depend on states that are no velocities, or on the time, where M does. INTEGRALS ((name value
+size power) ..): value plus the integral of power over the time is constant along every motion,
+and value is a sum, perhaps a small one, of parts as large as size. UNTOLD: what is not given of
+such, sentences."
   program states pairs outputs (mass nil) (guards nil) (angles nil) (split nil) (cyclic nil)
-  (momenta nil) (inertia nil))
+  (momenta nil) (inertia nil) (integrals nil) (untold nil))
+
+(defun forms-put (elements pairs)
+  "ELEMENTS with other elements for some inputs, PAIRS (name . element)."
+  (algebra-exchanged elements (algebra-exchange-by pairs)))
 
 (defun forms-rates-elements (rates)
-  "All elements of RATES."
+  "All elements of RATES but its integrals."
   (append (algebra-all-outputs (forms-rates-outputs rates))
           (loop for row in (forms-rates-mass rates) append (mapcar #'cdr row))
           (loop for (nil pivot . whole) in (forms-rates-guards rates)
@@ -40,8 +47,19 @@ that depend on states that are no velocities, or on the time, where M does."
                                                         collect (cons j (next element))))
             (forms-rates-guards copy) (loop for (name pivot . whole) in (forms-rates-guards rates)
                                             collect (list* name (next pivot) (next whole)))
-            (forms-rates-inertia copy) (mapcar #'next (forms-rates-inertia rates))))
+            (forms-rates-inertia copy) (mapcar #'next (forms-rates-inertia rates))
+            (forms-rates-integrals copy) (forms-exchanged-integrals rates exchange)))
     copy))
+
+(defun forms-exchanged-integrals (rates exchange)
+  "The integrals of RATES; without those that have no value then."
+  (loop for (name . elements) in (forms-rates-integrals rates)
+        for found = (catch 'forms-no-integral
+                      (algebra-exchanged elements exchange
+                                         (lambda (denominator)
+                                           (declare (ignore denominator))
+                                           (throw 'forms-no-integral nil))))
+        when found collect (cons name found)))
 
 (defun forms-mapped-outputs (function outputs)
   (loop for (name . value) in outputs

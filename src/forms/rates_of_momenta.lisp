@@ -8,14 +8,13 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_derivative" "algebra/program_exchange"
+  (core-require "algebra/program_derivative"
                 "algebra/program_from_expressions" "algebra/program_nodes" "forms/dynamics"
-                "forms/equations_as_program" "forms/momenta_judge" "forms/program_judge"
-                "forms/rates" "forms/rates_of_motion"))
+                "forms/equations_as_program" "forms/fixed" "forms/judge" "forms/momenta_judge"
+                "forms/program_judge" "forms/rates" "forms/rates_integrals"
+                "forms/rates_of_motion" "forms/value"))
 
 ;;; Elements with other elements for some inputs.
-
-(defun forms-put (elements pairs) (algebra-exchanged elements (algebra-exchange-by pairs)))
 
 (defun forms-put-in-bonds (bonds pairs)
   (loop for bond in bonds
@@ -46,7 +45,11 @@
                                     velocities)))
          (motion (forms-canonical-motion-of dynamics names velocities pushes)))
     (forms-check-hamilton dynamics names motion)
-    (forms-canonical-rates dynamics names motion constant)))
+    (forms-canonical-rates dynamics names motion constant
+                           (forms-canonical-integrals
+                            dynamics names motion
+                            (forms-integrals-in-momenta dynamics names velocities)
+                            (forms-canonical-point dynamics names)))))
 
 (defun forms-canonical-motion-of (dynamics names velocities pushes)
   "The motion with the constraints of DYNAMICS, VELOCITIES put in."
@@ -61,7 +64,29 @@
     (make-forms-canonical-motion :velocities velocities :forces forces :bonds bonds
                                  :multipliers multipliers)))
 
-(defun forms-canonical-rates (dynamics names motion constant)
+(defun forms-canonical-point (dynamics names)
+  "A random point with the momenta, NAMES, that its velocities give."
+  (let ((point (forms-trial-point (forms-momentum-trial dynamics)))
+        (terms (funcall (forms-dynamics-terms dynamics))))
+    (catch 'forms-no-value
+      (forms-set-places names (forms-program-values (forms-program-terms-momenta terms) point)
+                        point))
+    point))
+
+(defun forms-canonical-integrals (dynamics names motion integrals point)
+  "INTEGRALS in coordinates and the momenta NAMES, as rates have them."
+  (let ((task (forms-dynamics-task dynamics))
+        (multipliers (forms-canonical-motion-multipliers motion)))
+    (forms-checked-integrals
+     integrals
+     (append (mapcar #'cons (forms-task-q task) (forms-canonical-motion-velocities motion))
+             (mapcar #'cons names (forms-canonical-motion-forces motion)))
+     (forms-reactions multipliers
+                      (mapcar #'forms-bond-row (forms-canonical-motion-bonds motion))
+                      (length names))
+     (forms-power-of-constraints dynamics multipliers) point)))
+
+(defun forms-canonical-rates (dynamics names motion constant integrals)
   (let ((task (forms-dynamics-task dynamics)))
     (flet ((kept (items) (forms-kept-items items task constant)))
       (let ((elements (append (kept (forms-canonical-motion-velocities motion))
@@ -75,6 +100,7 @@
                                               constant))
          :guards (funcall (forms-dynamics-guards dynamics))
          :inertia (forms-dynamics-inertia dynamics)
+         :integrals (remove-if (lambda (name) (rassoc name constant)) integrals :key #'first)
          :angles (forms-angles (kept (forms-task-q task)) elements))))))
 
 (defun forms-velocities-of-momenta (dynamics names)
@@ -144,11 +170,18 @@ FORCES alone."
          (motion (forms-canonical-motion-of
                   dynamics names velocities
                   (mapcar #'algebra-program-subtract forces slopes))))
-    (values (forms-canonical-rates dynamics names motion '()) motion)))
+    (values (forms-canonical-rates
+             dynamics names motion '()
+             (forms-canonical-integrals
+              dynamics names motion
+              (forms-integrals-of-hamiltonian function slopes forces names motion)
+              (forms-new-point t)))
+            motion)))
 
 ;;; Routh's form.
 
-(defun forms-routh-rates (dynamics constant)
+(defun forms-routh-rates (dynamics names constant)
+  "CONSTANT: ((coordinate . name of its momentum) ..); NAMES are those of all momenta."
   (let* ((task (forms-dynamics-task dynamics))
          (velocities (forms-cyclic-velocities dynamics constant))
          (outputs (forms-checked-outputs dynamics))
@@ -174,7 +207,22 @@ FORCES alone."
            :guards (forms-put-in-guards (funcall (forms-dynamics-guards dynamics)) pairs)
            :split (length (kept (forms-task-q task)))
            :inertia (forms-dynamics-inertia dynamics)
+           :integrals (forms-routh-integrals dynamics names constant pairs elements
+                                             multipliers)
            :angles (forms-angles (kept (forms-task-q task)) elements)))))))
+
+(defun forms-routh-integrals (dynamics names constant pairs elements multipliers)
+  "Those of the remaining coordinates, whose rates and whose velocities' are ELEMENTS."
+  (let ((task (forms-dynamics-task dynamics)))
+    (flet ((kept (items) (forms-kept-items items task constant)))
+      (forms-checked-integrals
+       (remove-if (lambda (integral) (rassoc (forms-conserved-name integral) constant))
+                  (forms-put-in-integrals (forms-motion-integrals dynamics names) pairs))
+       (mapcar #'cons (append (kept (forms-task-q task)) (kept (forms-task-v task))) elements)
+       (forms-reactions multipliers (mapcar #'forms-bond-row (forms-dynamics-bonds dynamics))
+                        (length names))
+       (forms-power-of-constraints dynamics multipliers)
+       (forms-trial-point (forms-momentum-trial dynamics))))))
 
 (defun forms-cyclic-pairs (task constant velocities)
   "What is put in: 0 for the cyclic coordinates, on which nothing depends, and their VELOCITIES."

@@ -155,8 +155,10 @@
 
 (defparameter *forms-rates-inputs* '("Lagrangian" "coordinates" "actions" ("laws" ((mlist simp)))))
 
+(defparameter *forms-given-integrals* '("integrals" ((mlist simp))))
+
 (apply #'core-middle "rates" :any "forms/rates_of_systems" "forms_lagrange_rates"
-       *forms-rates-inputs*)
+       (append *forms-rates-inputs* (list *forms-given-integrals*)))
 (apply #'core-middle "routh_rates" :any "forms/rates_of_systems" "forms_routh_rates"
        (append *forms-rates-inputs* '(("cyclic" $auto) ("momenta" ((mlist simp))))))
 (apply #'core-middle "hamilton_rates" :any "forms/rates_of_systems" "forms_hamilton_rates"
@@ -164,12 +166,16 @@
 (core-rule-given "hamiltonian" "hamilton_rates" '("lagrangian") "forms/rates_of_systems"
   "forms_hamiltonian_rates"
   "hamiltonian" "coordinates" '("momenta" ((mlist simp))) "canonical_actions"
-  '("laws" ((mlist simp))))
+  '("laws" ((mlist simp))) *forms-given-integrals*)
 (core-rule-same-as "rates" '("lagrangian") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("lagrangian") "hamilton_rates" :given '("function" $hamilton))
 (core-rule-same-as "rates" '("lagrangian") "hamilton_rates" :given "hamiltonian")
-(core-middle "rates" '("equations" "poisson") "forms/rates_of_systems" "forms_equation_rates"
-  "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))))
+(core-middle "rates" '("equations") "forms/rates_of_systems" "forms_equation_rates"
+  "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) *forms-given-integrals*
+  '("level" ((mlist simp))))
+(core-middle "rates" '("poisson") "forms/rates_of_systems" "forms_equation_rates"
+  "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) "poisson_integrals"
+  '("level" ((mlist simp))))
 
 ;;; Poisson
 

@@ -34,7 +34,7 @@
           (velocities (mapcar #'algebra-program-input (forms-task-v task)))
           (function (linmodel-function-element scene potential task '|$l|)))
       (make-forms-program-terms
-       :places places :velocities velocities
+       :function function :places places :velocities velocities
        :momenta (algebra-program-gradient function velocities)
        :slopes (algebra-program-gradient function places)
        :damping (algebra-program-gradient (algebra-program-element dissipation) velocities)

@@ -17,6 +17,7 @@
            '("form" $auto))
 (core-rule "forces" '("mechanical") "linmodel/loads" "linmodel_forces" "scene"
            '("form" $auto))
+(core-rule "functions_derived" '("mechanical") "linmodel/scene" "linmodel_formulas" "scene")
 (core-rule "momenta" '("mechanical") "linmodel/rotors" "linmodel_momenta" "scene")
 (core-rule "given_keys" '("mechanical") "linmodel/scene_records" "linmodel_scene_given" "scene")
 (core-rule-field "constraints" '("mechanical") "given_keys" "constraints")
@@ -93,7 +94,7 @@
        "linmodel_hamilton_rates" *linmodel-program-inputs*)
 (core-rule-same-as "rates" '("mechanical") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("mechanical") "hamilton_rates" :given '("function" $hamilton))
-(loop for (name function . more) in '(("rates" "forms_lagrange_rates")
+(loop for (name function . more) in '(("rates" "forms_lagrange_rates" ("integrals" ((mlist simp))))
                                       ("routh_rates" "forms_routh_rates" ("cyclic" $auto) "momenta")
                                       ("hamilton_rates" "forms_hamilton_rates" "momenta"))
       do (apply #'core-rule-given '(:edited "Lagrangian") name '("mechanical")

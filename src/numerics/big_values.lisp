@@ -8,7 +8,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"
-                "algebra/program_record"))
+                "algebra/program_record" "core/bigfloats"))
 
 (defconstant numerics-guard-bits 40)
 (defconstant numerics-largest-exponent 100
@@ -20,8 +20,6 @@
      (declare (special fpprec *m *cancelled))
      ,@body))
 
-(defun numerics-bits-of-digits (digits) (+ 2 (integer-length (expt 10 digits))))
-
 (defun numerics-big-number (x)
   "The mantissa and exponent of X, a rational number or a bigfloat."
   (cond ((integerp x) (if (zerop x) (list 0 0) (intofp x)))
@@ -31,7 +29,7 @@
 (defun numerics-big-routine (elements names digits)
   "A function of the list of the values of NAMES, rational numbers or bigfloats: the list of the
 values of ELEMENTS, bigfloats of DIGITS."
-  (let* ((bits (numerics-bits-of-digits digits)) (inner (+ bits numerics-guard-bits))
+  (let* ((bits (core-bits-of-digits digits)) (inner (+ bits numerics-guard-bits))
          (constants (make-hash-table)) (values (make-hash-table)) (point '()))
     (labels ((value (element)
                (if (algebra-node-p element)

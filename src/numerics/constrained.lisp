@@ -7,7 +7,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "forms/rates" "numerics/decimals" "numerics/native"
-                "numerics/problem" "numerics/program" "numerics/back_to_constraints" "numerics/routine"))
+                "numerics/problem" "numerics/program" "numerics/back_to_constraints" "numerics/routine"
+                "numerics/small_systems"))
 
 (defparameter *numerics-largest-start-residual* 1d-6
   "Off a constraint by more than this a start is refused, by less it is brought back.")
@@ -47,7 +48,21 @@ back to them in place."
     (numerics-check-residuals constraints (numerics-constraints-rates constraints) moment state
                               :speeds)
     (let ((redundant (numerics-redundant-constraints constraints moment state)))
+      (when (and redundant (numerics-dead-start-p constraints moment state))
+        (core-error "the start is a dead point, where ~{~a~^, ~} depend~:[s~;~] on the constraints ~
+                     before; start elsewhere" redundant (cdr redundant)))
       (when redundant
         (core-error "~{~a~^, ~} follow~:[s~;~] at the start from the constraints before; leave ~
                      ~:[it~;them~] out" redundant (cdr redundant) (cdr redundant))))
     (numerics-project constraints moment state)))
+
+(defun numerics-dead-start-p (constraints moment state)
+  "Whether no constraint follows from those before it near STATE, on those that do not at STATE."
+  (let ((near (copy-seq state)) (size (numerics-constraints-size constraints))
+        (rows (numerics-constraints-rows constraints)))
+    (dotimes (i size)
+      (incf (aref near i) (* 1d-2 (+ 1 (abs (aref near i))) (sin (+ 1d0 (* 3 i))))))
+    (numerics-project constraints moment near)
+    (funcall (numerics-constraints-matrix constraints) moment near rows)
+    (= (length (numerics-independent-rows rows (numerics-constraints-count constraints) size))
+       (numerics-constraints-count constraints))))

@@ -5,6 +5,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "core/bigfloats"))
+
 (defun numerics-decimal (digits)
   "The rational number that the text DIGITS writes."
   (let* ((point (or (position #\. digits) (length digits)))
@@ -23,9 +26,18 @@
 (defun numerics-short-number (x)
   "X to six digits, as a person writes it."
   (flet ((trimmed (text) (string-right-trim "." (string-right-trim "0" text))))
-    (if (or (= x 0d0) (<= 1d-3 (abs x) 1d6))
-        (trimmed (format nil "~,6f" x))
-        (let* ((text (string-downcase (format nil "~,5e" x)))
-               (place (position-if #'alpha-char-p text)))
-          (concatenate 'string (trimmed (subseq text 0 place)) "e"
-                       (string-left-trim "+" (subseq text (1+ place))))))))
+    (cond ((or (= x 0d0) (<= 1d-3 (abs x) 1d6)) (trimmed (format nil "~,6f" x)))
+          ((<= (abs x) most-positive-double-float)
+           (multiple-value-bind (mantissa exponent) (core-rounded-to (rational (abs x)) 10 6)
+             (let ((digits (format nil "~d" mantissa)))
+               (format nil "~:[~;-~]~ae~d" (minusp x)
+                       (trimmed (format nil "~a.~a" (subseq digits 0 1) (subseq digits 1)))
+                       (+ exponent 5)))))
+          (t (string-downcase (format nil "~a" x))))))
+
+(defun numerics-few-digits (x)
+  "The double-float number next to X to four digits, as is fit for an error."
+  (if (and (/= x 0d0) (<= (abs x) most-positive-double-float))
+      (multiple-value-bind (mantissa exponent) (core-rounded-to (rational x) 10 4)
+        (numerics-rounded (* mantissa (expt 10 exponent))))
+      x))

@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; dlsode of Maxima's share (ODEPACK by A. C. Hindmarsh, translated from Fortran): Adams' methods and
-;;; backward differences. It is loaded when it is first asked for, and compiled when it is first
+;;; dlsode of Maxima's share (ODEPACK by A. C. Hindmarsh, translated from Fortran): Adams' methods
+;;; and backward differences. It is loaded when it is first asked for, and compiled when it is first
 ;;; loaded on a machine. It hands over displaced vectors, which our rates must not see: what it
 ;;; gives and takes is copied. It makes one step a call, never past the end (itask 5), so that its
 ;;; limit of 500 steps a call does not bind, and is silent meanwhile. See numerics-dlsode first.
@@ -44,7 +44,7 @@
     (handler-case
         (let* ((*standard-output* (make-broadcast-stream)) (*error-output* *standard-output*))
           (handler-bind ((warning #'muffle-warning)) ($load "dlsode")))
-      (error () (core-error "dlsode of Maxima's share cannot be loaded here; take method = radau"))))
+      (error () (core-error "dlsode of Maxima's share cannot be loaded; take method = radau"))))
   (symbol-function (numerics-odepack "DLSODE")))
 
 (defun numerics-dlsode-silently (function)
@@ -78,11 +78,13 @@
             (aref work 5) (or (numerics-controls-largest-step controls) 0d0)))
     run))
 
-;;; What it calls. A value that is returned first would become its time.
+;;; What it calls. A value that is returned first would become its time. It has no answer to rates
+;;; without a finite value, a shorter step neither.
 
 (defun numerics-dlsode-rates (run)
   (let ((moment (numerics-dlsode-moment run)) (x (numerics-dlsode-x run))
-        (out (numerics-dlsode-out run)) (counts (numerics-controls-counts (numerics-dlsode-controls run)))
+        (out (numerics-dlsode-out run))
+        (counts (numerics-controls-counts (numerics-dlsode-controls run)))
         (rates (numerics-problem-rates (numerics-dlsode-problem run))))
     (lambda (size-vector time y slopes)
       (declare (ignore size-vector))
@@ -90,6 +92,7 @@
       (replace x y)
       (funcall rates moment x out)
       (incf (numerics-counts-rates counts))
+      (unless (numerics-finite-vector-p out) (throw 'numerics-no-rates :not-finite))
       (replace slopes out)
       nil)))
 
@@ -123,14 +126,16 @@
       (replace (numerics-step-before seen) y)
       (setf (aref (numerics-step-from seen) 0) (numerics-dlsode-time run))
       (let ((fault (or (numerics-dlsode-limit controls)
-                       (numerics-dlsode-step run call rates jacobian))))
+                       (catch 'numerics-no-rates
+                         (numerics-dlsode-step run call rates jacobian)))))
         (when fault
           (replace y (numerics-step-before seen))
           (setf (numerics-dlsode-time run) (aref (numerics-step-from seen) 0))
           (return fault)))
       (setf (aref (numerics-step-to seen) 0) (numerics-dlsode-time run))
       (case (and observer (funcall observer seen))
-        (:stop (return :stopped))
+        (:stop (setf (numerics-dlsode-time run) (aref (numerics-step-to seen) 0))
+               (return :stopped))
         (:changed (setf (numerics-dlsode-state-flag run) 1
                         (numerics-dlsode-jacobians run) 0))))))
 
@@ -177,7 +182,7 @@
   "The function (share out): the sum of z_j ((t - t_n)/h)^j over the columns z_j of its work array."
   (lambda (share out)
     (let* ((work (numerics-dlsode-real-work run)) (n (length out))
-           (order (aref (numerics-dlsode-whole-work run) 14)) (to (aref (numerics-step-to seen) 0))
+           (order (aref (numerics-dlsode-whole-work run) 14)) (to (numerics-dlsode-time run))
            (place (* (- share 1) (/ (- to (aref (numerics-step-from seen) 0)) (aref work 11)))))
       (dotimes (i n out)
         (let ((sum 0d0))

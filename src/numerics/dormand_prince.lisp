@@ -16,7 +16,7 @@
     (numerics-dopri-show run)
     (loop for status = (numerics-dopri-begin run)
             then (or (numerics-dopri-limit run) (numerics-dopri-step-on run observer))
-          when status return (numerics-dopri-outcome run status))))
+          unless (member status '(nil :again)) return (numerics-dopri-outcome run status))))
 
 (defun numerics-dopri-show (run)
   "What the observer will see of each step of RUN."
@@ -69,7 +69,7 @@
            :most-steps)
           ((setf (numerics-dopri-about run)
                  (numerics-hopeless (numerics-dopri-pace run) controls moment))
-           :most-steps)
+           :too-slow)
           (t (setf (numerics-dopri-full-step run) step
                    (numerics-dopri-last-p run) (<= (abs left) (* 1.01d0 (abs step))))
              (when (numerics-dopri-last-p run) (setf (numerics-dopri-step run) left))
@@ -78,13 +78,12 @@
 ;;; A step
 
 (defun numerics-dopri-step-on (run observer)
-  "Tries a step of RUN; the status in which the run ends with it, or nil."
+  "Tries a step of RUN; the status in which the run ends with it, :again, or nil."
   (numerics-dopri-set-next-moment run)
-  (if (numerics-dopri-trial-p run)
-      (let ((stiff (and (eq (numerics-controls-looks-for (numerics-dopri-controls run)) :stiffness)
-                        (numerics-dopri-stiff-p run))))
-        (or (numerics-dopri-accept run observer) (and stiff :stiff)))
-      (numerics-dopri-reject run)))
+  (cond ((not (numerics-dopri-trial-p run)) (numerics-dopri-reject run))
+        ((numerics-dopri-inspect run))
+        (t (let ((stiff (numerics-dopri-stiff-p run)))
+             (or (numerics-dopri-accept run observer) stiff)))))
 
 (defun numerics-dopri-set-next-moment (run)
   (let ((next (numerics-dopri-next-moment run)))
@@ -137,17 +136,53 @@ the end made it shorter."
     (setf (numerics-dopri-step run) (if (< step 0d0) (- next) next)
           (numerics-dopri-rejected-p run) nil)))
 
-(defun numerics-dopri-accept (run observer)
-  "RUN goes on to the new state, which OBSERVER sees; the status in which it ends there, or nil."
-  (let ((seen (numerics-dopri-seen run)) (slopes (numerics-dopri-slopes run)))
-    (incf (numerics-counts-steps (numerics-dopri-counts run)))
+(defun numerics-dopri-see (run)
+  "The trial step of RUN, as it is seen."
+  (let ((seen (numerics-dopri-seen run)))
     (setf (numerics-step-from seen) (numerics-dopri-moment run)
           (numerics-step-to seen) (numerics-dopri-next-moment run)
           (numerics-step-before seen) (numerics-dopri-state run)
           (numerics-step-after seen) (numerics-dopri-next run)
           (numerics-dopri-dense-p run) nil)
-    (let ((answer (and observer (funcall observer seen))))
+    seen))
+
+(defun numerics-dopri-inspect (run)
+  "Where the controls look at the trial step before it stands: :again where it is cut, the status in
+which RUN ends before it, or nil."
+  (let ((inspect (numerics-controls-inspect (numerics-dopri-controls run))))
+    (when inspect
+      (multiple-value-bind (share over) (funcall (the function inspect) (numerics-dopri-see run))
+        (cond ((null share) nil)
+              ((stringp share)
+               (setf (numerics-dopri-about run) share)
+               :sliding)
+              (t (numerics-dopri-cut run share over)
+                 :again))))))
+
+(defun numerics-dopri-cut (run share over)
+  "The next trial of RUN is SHARE of this one, and leads OVER a jump or to it."
+  (declare (double-float share))
+  (let ((step (numerics-dopri-step run)))
+    (incf (numerics-counts-rejected (numerics-dopri-counts run)))
+    (setf (numerics-dopri-resumed run) (max (numerics-dopri-resumed run) (abs step))
+          (numerics-dopri-before-jump-p run) (not over)
+          (numerics-dopri-step run) (* share step))))
+
+(defun numerics-dopri-resume (run)
+  "After a step that was cut, and the one over the jump, the next trial is as long as that before."
+  (let ((resumed (numerics-dopri-resumed run)) (step (numerics-dopri-step run)))
+    (when (> resumed (abs step))
+      (setf (numerics-dopri-step run) (float-sign step resumed)))
+    (unless (numerics-dopri-before-jump-p run) (setf (numerics-dopri-resumed run) 0d0))
+    (setf (numerics-dopri-before-jump-p run) nil)))
+
+(defun numerics-dopri-accept (run observer)
+  "RUN goes on to the new state, which OBSERVER sees; the status in which it ends there, or nil."
+  (let ((slopes (numerics-dopri-slopes run)))
+    (incf (numerics-counts-steps (numerics-dopri-counts run)))
+    (let ((answer (and observer (funcall observer (numerics-dopri-see run)))))
       (numerics-dopri-choose-step run)
+      (numerics-dopri-resume run)
       (rotatef (numerics-dopri-moment run) (numerics-dopri-next-moment run))
       (rotatef (numerics-dopri-state run) (numerics-dopri-next run))
       (rotatef (numerics-dopri-low run) (numerics-dopri-next-low run))
@@ -158,11 +193,21 @@ the end made it shorter."
         (:changed (fill (numerics-dopri-low run) 0d0)
                   (numerics-dopri-first-slope run))))))
 
+(defparameter *numerics-most-stiff-steps* 1d6 "That an explicit method alone makes to the end.")
+
 (defun numerics-dopri-stiff-p (run)
-  "Whether 15 steps looked stiff with never 6 others in between."
-  (cond ((numerics-dopri-unstable-p run)
-         (setf (numerics-dopri-calm run) 0)
-         (>= (incf (numerics-dopri-stiff run)) 15))
-        ((>= (incf (numerics-dopri-calm run)) 6)
-         (setf (numerics-dopri-stiff run) 0)
-         nil)))
+  "Whether 15 steps looked stiff with never 6 others in between, where the controls ask for it: by
+:stiffness, or by :much-stiffness if too many steps are left."
+  (let* ((controls (numerics-dopri-controls run)) (asked (numerics-controls-looks-for controls)))
+    (cond ((null asked) nil)
+          ((numerics-dopri-unstable-p run)
+           (setf (numerics-dopri-calm run) 0)
+           (and (>= (incf (numerics-dopri-stiff run)) 15)
+                (or (eq asked :stiffness)
+                    (> (abs (/ (numerics-time-left controls (numerics-dopri-moment run))
+                               (numerics-dopri-step run)))
+                       *numerics-most-stiff-steps*))
+                :stiff))
+          ((>= (incf (numerics-dopri-calm run)) 6)
+           (setf (numerics-dopri-stiff run) 0)
+           nil))))

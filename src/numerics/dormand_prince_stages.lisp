@@ -37,6 +37,8 @@
   (slopes (vector) :type simple-vector)        ; by the numbers of the stages
   (dense (vector) :type simple-vector)         ; coefficients of the polynomial, from the second on
   (dense-p nil)                                ; they are those of this step
+  (resumed 0d0 :type double-float)             ; the step before a jump made it shorter, or 0
+  (before-jump-p nil)                          ; the step leads to a jump
   (pace nil)
   (about nil)                                  ; a sentence on how the run ended
   (seen (make-numerics-step)))                 ; what the observer sees

@@ -152,16 +152,19 @@ zero at the sample K itself was met before it.)"
 
 ;;; Zeros, as (share place direction)
 
+(defun numerics-share-tolerance (step)
+  "The share of STEP that the last place of the time is, at least 1e-16 and at most 1e-4."
+  (let* ((begin (aref (numerics-step-from step) 0)) (end (aref (numerics-step-to step) 0))
+         (last-place (* double-float-epsilon (max (abs begin) (abs end)))))
+    (max 1d-16 (/ last-place (max (abs (- end begin)) (* 1d4 last-place)
+                                  least-positive-normalized-double-float)))))
+
 (defun numerics-crossing (events step place from to)
   "The share of STEP at which the function PLACE leaves its side at FROM, not after TO."
-  (let* ((function (numerics-event-function events step place))
-         (begin (aref (numerics-step-from step) 0)) (end (aref (numerics-step-to step) 0))
-         (last-place (* double-float-epsilon (max (abs begin) (abs end)))))
+  (let ((function (numerics-event-function events step place)))
     (numerics-zero-between function
-                   (if (zerop (funcall function from)) (+ from (/ 1024d0)) from)
-                   to
-                   (max 1d-16 (/ last-place (max (abs (- end begin)) (* 1d4 last-place)
-                                                 least-positive-normalized-double-float))))))
+                           (if (zerop (funcall function from)) (+ from (/ 1024d0)) from)
+                           to (numerics-share-tolerance step))))
 
 (defun numerics-dip (events step place side k)
   "Two crossings after the sample K, or a touch, or nothing."
@@ -233,9 +236,17 @@ no value there is no zero, and it begins anew after that."
   "STEP ends at EVENT, at SHARE of it."
   (let ((between (numerics-step-interpolate step)))
     (setf (numerics-step-interpolate step)
-          (lambda (part out) (funcall between (* part share) out)))
+          (lambda (part out) (funcall between (* part share) out))
+          (numerics-step-nodes step) nil)
     (replace (numerics-step-to step) (numerics-event-moment event))
     (replace (numerics-step-after step) (numerics-event-state event))))
+
+(defun numerics-undo-step (step)
+  "STEP ends where it begins."
+  (let ((before (copy-seq (numerics-step-before step))))
+    (setf (numerics-step-interpolate step) (lambda (share out) share (replace out before)))
+    (replace (numerics-step-to step) (numerics-step-from step))
+    (replace (numerics-step-after step) before)))
 
 (defun numerics-see-events (events step)
   "Notes the zeros in STEP; :stop where one of them ends the run, and STEP ends there."

@@ -1,28 +1,33 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Gauss-Legendre collocation with a fixed step, for conservative systems over long spans: of order
-;;; 2s with s stages, symplectic and symmetric (Hairer, Lubich, Wanner, Geometric Numerical
+;;; Gauss-Legendre collocation with a fixed step, for conservative systems over long spans: of
+;;; order 2s with s stages, symplectic and symmetric (Hairer, Lubich, Wanner, Geometric Numerical
 ;;; Integration, VIII.6; Hairer, McLachlan, Razakarivony, Achieving Brouwer's law with implicit
-;;; Runge-Kutta methods, BIT 48, 2008). The step is that of the controls, else one that the tolerance
-;;; allows along the first part of the run; the last one ends at the end of the controls.
+;;; Runge-Kutta methods, BIT 48, 2008). The step is that of the controls, else one that the
+;;; tolerance allows along the first part of the run; the last one ends at the end of the controls.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/step_control" "numerics/gauss_stages"
-                "numerics/gauss_first_step" "numerics/gauss_dense"))
+  (core-require "numerics/decimals" "numerics/problem" "numerics/step_control"
+                "numerics/gauss_stages" "numerics/gauss_first_step" "numerics/gauss_dense"))
 
 (defun numerics-gauss (problem controls moment state observer &key order)
   "Integrates PROBLEM, x' = X(t, x), from STATE at MOMENT; an outcome. ORDER is an even number up to
 12; where it is not given, the tolerance chooses."
   (let* ((moment (copy-seq moment)) (state (copy-seq state))
          (stages (/ (or order (numerics-gauss-order controls)) 2))
-         (run (numerics-new-gauss-run problem stages controls))
-         (step (numerics-gauss-fitting-step problem controls moment state stages)))
-    (cond ((realp step)
-           (numerics-gauss-set-step run step)
-           (let ((status (numerics-gauss-steps run controls moment state observer)))
-             (numerics-gauss-outcome status moment state step)))
-          (t (numerics-gauss-outcome step moment state 0d0)))))
+         (run (numerics-new-gauss-run problem stages controls)))
+    (multiple-value-bind (step place)
+        (numerics-gauss-fitting-step problem controls moment state stages)
+      (cond (place
+             (let ((outcome (numerics-gauss-outcome step moment state 0d0 stages)))
+               (setf (numerics-outcome-about outcome)
+                     (format nil "~a, near t = ~a where the length of the steps is chosen"
+                             (numerics-outcome-about outcome) (numerics-short-number place)))
+               outcome))
+            (t (numerics-gauss-set-step run step)
+               (let ((status (numerics-gauss-steps run controls moment state observer)))
+                 (numerics-gauss-outcome status moment state step stages)))))))
 
 (defun numerics-gauss-order (controls)
   "The order that reaches the tolerance with the fewest rates, as measured on the double pendulum."
@@ -39,11 +44,15 @@
         (end (numerics-controls-end controls)))
     (setf (numerics-step-interpolate seen)
           (numerics-gauss-dense run seen controls))
+    (when (> (abs (/ (numerics-time-left controls moment) (numerics-gauss-run-step run)))
+             *numerics-hopeless-steps*)
+      (return-from numerics-gauss-steps :too-slow))
     (loop (when (= (aref moment 0) end) (return :end))
           (let ((fault (numerics-gauss-one-step run controls moment seen)))
             (when fault (return fault)))
           (case (and observer (funcall (the function observer) seen))
-            (:stop (return :stopped))
+            (:stop (replace moment (numerics-step-to seen))
+                   (return :stopped))
             (:changed (fill (numerics-gauss-run-low run) 0d0))))))
 
 (defun numerics-gauss-one-step (run controls moment seen)
@@ -67,10 +76,14 @@
              (replace (numerics-step-to seen) moment)
              nil))))
 
-(defun numerics-gauss-outcome (status moment state step)
+(defun numerics-gauss-outcome (status moment state step stages)
   (make-numerics-outcome
    :status status :moment moment :state state :step step
    :about (case status
             (:not-finite "the rates have no finite value in a step of Gauss' method")
             (:no-convergence
-             "the stages of Gauss' method do not converge: too long a step, or a stiff system"))))
+             "the stages of Gauss' method do not converge: too long a step, or a stiff system")
+            (:too-slow (format nil "steps of ~a, all of one length, would be too many"
+                               (numerics-short-number step)))
+            (t (format nil "Gauss' method of order ~d, steps of ~a" (* 2 stages)
+                       (numerics-short-number step))))))

@@ -35,21 +35,20 @@
 (defun numerics-polynomial-integral (p)
   (cons 0 (loop for a in p for k from 1 collect (/ a k))))
 
-(defun numerics-lagrange-polynomials (nodes)
-  "Those that are 1 at one of NODES and 0 at the others."
-  (loop for node in nodes
-        collect (let ((p (list 1)))
-                  (dolist (other nodes p)
-                    (unless (= other node)
-                      (setq p (numerics-polynomial-product
-                               p (list (/ other (- other node)) (/ (- node other))))))))))
+(defun numerics-lagrange-polynomial (nodes node)
+  "Two values: the product of x - c over the other NODES, and its value at NODE."
+  (let* ((others (remove node nodes)) (p (list 1)))
+    (dolist (other others)
+      (setq p (numerics-polynomial-product p (list (- other) 1))))
+    (values p (numerics-polynomial-value p node))))
 
 ;;; The method.
 
 (defun numerics-legendre-polynomial (stages)
   "Legendre's polynomial on [0, 1] of degree STAGES, up to a sign."
   (flet ((choose (n k)
-           (let ((product 1)) (dotimes (i k product) (setq product (/ (* product (- n i)) (1+ i)))))))
+           (let ((product 1))
+             (dotimes (i k product) (setq product (/ (* product (- n i)) (1+ i)))))))
     (loop for k from 0 to stages
           collect (* (if (oddp k) -1 1) (choose stages k) (choose (+ stages k) k)))))
 
@@ -71,10 +70,17 @@
             collect (zero (/ (- 1 (cos (/ (* pi (- i 1/4)) (+ stages 1/2)))) 2))))))
 
 (defun numerics-collocation-integrals (nodes ends)
-  "Row by row for ENDS: the integrals from 0 to an end of the polynomials of Lagrange on NODES."
-  (let ((integrals (mapcar #'numerics-polynomial-integral (numerics-lagrange-polynomials nodes))))
+  "Row by row for ENDS: the integrals from 0 to an end of the polynomials of Lagrange on NODES. They
+are computed in whole numbers, multiples of the common part of all."
+  (let* ((scale (reduce #'lcm (mapcar #'denominator (append nodes ends))))
+         (whole (mapcar (lambda (c) (* scale c)) nodes))
+         (integrals (loop for node in whole
+                          collect (multiple-value-bind (p value)
+                                      (numerics-lagrange-polynomial whole node)
+                                    (cons (numerics-polynomial-integral p) (* scale value))))))
     (loop for end in ends
-          collect (loop for p in integrals collect (numerics-polynomial-value p end)))))
+          collect (loop for (p . value) in integrals
+                        collect (/ (numerics-polynomial-value p (* scale end)) value)))))
 
 (defun numerics-gauss-weights (nodes)
   (car (numerics-collocation-integrals nodes (list 1))))
@@ -86,7 +92,7 @@
   (weights (numerics-zeros 0) :type (simple-array double-float (*)))
   (quotients (numerics-zeros 0) :type (simple-array double-float (*))) ; a_ij/b_j, row by row
   memories  ; vector: [k] foretells the stages from those of the last k steps, [0] is not used
-  shares)   ; vector: [k] foretells the stages of the first k/stages of a step from those of the step
+  shares)   ; vector: [k] foretells the stages of the first k/stages of a step from those of it
 
 (defun numerics-vector-of (rows)
   (let ((numbers (apply #'append rows)))
@@ -104,14 +110,24 @@
                                         ((> i j) (quotient i j))
                                         (t (- 1 (quotient j i)))))))))
 
+(defun numerics-lagrange-values (nodes x)
+  "The polynomials of Lagrange on NODES at X, by products of whole numbers."
+  (let* ((scale (reduce #'lcm (mapcar #'denominator (cons x nodes))))
+         (whole (mapcar (lambda (c) (* scale c)) nodes)) (place (* scale x)))
+    (loop for node in whole
+          collect (let ((above 1) (below 1))
+                    (dolist (other whole (/ above below))
+                      (unless (= other node)
+                        (setq above (* above (- place other))
+                              below (* below (- node other)))))))))
+
 (defun numerics-stage-foresight (known known-weights nodes weights)
   "Rows for NODES: the increment b_i h x'(c_i) from increments at the nodes KNOWN."
-  (let ((polynomials (numerics-lagrange-polynomials known)))
-    (loop for node in nodes
-          for weight in weights
-          collect (loop for p in polynomials
-                        for known-weight in known-weights
-                        collect (/ (* weight (numerics-polynomial-value p node)) known-weight)))))
+  (loop for node in nodes
+        for weight in weights
+        collect (loop for value in (numerics-lagrange-values known node)
+                      for known-weight in known-weights
+                      collect (/ (* weight value) known-weight))))
 
 (defun numerics-gauss-memory (nodes weights)
   "Foresight from the last step, which goes from 0 to 1, for the next one."
@@ -134,11 +150,11 @@
 (defun numerics-gauss-memory-of-two (nodes weights)
   "Foresight from the last two steps, the older first."
   (let* ((known (append (mapcar #'1- nodes) nodes)) (errors (numerics-stage-errors nodes))
-         (free (numerics-free-factors known)) (polynomials (numerics-lagrange-polynomials known)))
+         (free (numerics-free-factors known)))
     (loop for node in nodes
           for weight in weights
           for own in errors
-          for row = (loop for p in polynomials collect (numerics-polynomial-value p (1+ node)))
+          for row = (numerics-lagrange-values known (1+ node))
           collect (loop for factor in (numerics-with-pattern row free errors own)
                         for known-weight in (append weights weights)
                         collect (/ (* weight factor) known-weight)))))
@@ -151,8 +167,8 @@
     (list difference (mapcar #'* known difference))))
 
 (defun numerics-with-pattern (row free errors own)
-  "ROW and a combination of the rows FREE that foretells OWN in a step from ERRORS in the step before
-and none in the one before that: twice OWN from the last step, -OWN from the older one."
+  "ROW and a combination of the rows FREE, so that ERRORS foretell OWN whether they stay or grow by
+the step: twice OWN from the last step, -OWN from the older one."
   (flet ((sums (row)
            (let ((s (length errors)))
              (list (reduce #'+ (mapcar #'* errors (subseq row 0 s)))
@@ -170,7 +186,7 @@ and none in the one before that: twice OWN from the last step, -OWN from the old
                             (mapcar (lambda (b) (* share b)) weights)))
 
 (defun numerics-new-gauss-table (stages)
-  (let* ((nodes (numerics-gauss-nodes stages 160)) (weights (numerics-gauss-weights nodes)))
+  (let* ((nodes (numerics-gauss-nodes stages 120)) (weights (numerics-gauss-weights nodes)))
     (flet ((vectors (rows)
              (coerce (cons nil (mapcar #'numerics-vector-of rows)) 'simple-vector)))
       (make-numerics-gauss-table

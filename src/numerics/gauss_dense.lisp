@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The state inside a step of Gauss-Legendre collocation. The collocation polynomial of s stages is
-;;; of order s only there, where the method is of order 2s. So where somebody asks, parts of the step
-;;; from its begin to 1/s, 2/s, .. are made by the method itself, with that polynomial as the first
-;;; guess; Hermite's polynomial through these states and their rates is of order 2s + 1.
+;;; of order s only there, where the method is of order 2s. So where somebody asks, parts of the
+;;; step from its begin to 1/s, 2/s, .. are made by the method itself, with that polynomial as the
+;;; first guess; Hermite's polynomial through these states and their rates is of order 2s + 1.
 
 (in-package :maxima)
 
@@ -22,7 +22,8 @@
                          (coerce (loop repeat (1+ stages) collect (numerics-zeros n)) 'vector)))
                   (make-numerics-gauss-dense
                    :run run :seen seen :states (several) :slopes (several)
-                   :inner (numerics-new-gauss-run (numerics-gauss-run-problem run) stages controls)))))
+                   :inner (numerics-new-gauss-run (numerics-gauss-run-problem run) stages
+                                                  controls)))))
     (lambda (share out)
       (let ((number (numerics-counts-steps (numerics-gauss-run-counts run))))
         (unless (= number (numerics-gauss-dense-step-number dense))

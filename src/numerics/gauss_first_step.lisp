@@ -16,16 +16,17 @@
   (step 0d0 :type double-float))
 
 (defun numerics-gauss-fitting-step (problem controls moment state stages)
-  "The step from the controls, else from a pilot run; the keyword of what went wrong there."
+  "The step from the controls, else from a pilot run; or the keyword of what went wrong there, and the
+time."
   (let* ((span (- (numerics-controls-end controls) (aref moment 0)))
          (given (numerics-controls-first-step controls)))
     (cond ((= span 0d0) span)
           (given (float-sign span (min (abs given) (abs span))))
-          (t (let ((step (numerics-gauss-pilot
-                          (numerics-new-pilot problem controls moment state stages) span)))
+          (t (let* ((pilot (numerics-new-pilot problem controls moment state stages))
+                    (step (numerics-gauss-pilot pilot span)))
                (if (realp step)
                    (/ span (max 1 (ceiling (- (/ span step) 1d-9))))
-                   step))))))
+                   (values step (aref (numerics-pilot-moment pilot) 0))))))))
 
 (defun numerics-new-pilot (problem controls moment state stages)
   (make-numerics-pilot
@@ -35,36 +36,42 @@
    :after (copy-seq state) :other (copy-seq state)))
 
 (defun numerics-gauss-pilot (pilot span)
-  "The shortest step, with its sign, of a pilot run along a part of SPAN; or what went wrong."
-  (let* ((longest (min (abs span) (or (numerics-controls-largest-step (numerics-pilot-controls pilot))
-                                      (abs span))))
+  "The shortest step, with its sign, of a pilot run along a part of SPAN; or what went wrong. A step
+that cannot be made bounds all others."
+  (let* ((largest (numerics-controls-largest-step (numerics-pilot-controls pilot)))
+         (longest (min (abs span) (or largest (abs span))))
          (shortest longest) (steps 0) (left (abs span)) (step (/ longest 100)))
     (loop
       (when (< step (* 1d-14 (abs span))) (return :no-convergence))
       (setf (numerics-pilot-step pilot) (float-sign span step))
-      (let* ((fit (numerics-pilot-fit pilot)) (next (min longest (* step fit))))
-        (when (>= fit 0.8d0)
-          (setq shortest (min shortest next))
-          (incf steps)
-          (decf left step)
-          (when (or (<= left 0d0) (>= steps (max 32 (min 2000 (/ (abs span) step 6)))))
-            (return (float-sign span shortest)))
-          (numerics-pilot-accept pilot))
-        (setq step next)))))
+      (let ((fit (numerics-pilot-fit pilot)))
+        (unless fit (setq longest (/ step 2)))
+        (let ((next (min longest (* step (or fit 0.5d0)))))
+          (when (and fit (or (<= 0.8d0 fit 2d0) (and (> fit 2d0) (= step longest))))
+            (setq shortest (min shortest next))
+            (incf steps)
+            (decf left step)
+            (when (or (<= left 0d0) (>= steps (numerics-pilot-length span step)))
+              (return (float-sign span shortest)))
+            (numerics-pilot-accept pilot))
+          (setq step next))))))
+
+(defun numerics-pilot-length (span step)
+  "After how many steps a pilot run ends: one there costs as much as four of the run."
+  (max 32 (min 2000 (/ (abs span) step 6))))
 
 (defun numerics-pilot-fit (pilot)
-  "The factor by which the step of PILOT may be longer, between 1/8 and 4; 1/8 where it cannot be made."
+  "The factor by which the step of PILOT may be longer, between 1/8 and 4; nil where it cannot be
+made."
   (let* ((whole (numerics-pilot-whole pilot)) (step (numerics-pilot-step pilot))
-         (moment (copy-seq (numerics-pilot-moment pilot)))
-         (made (and (numerics-pilot-made whole pilot moment (numerics-pilot-after pilot) step)
-                    (numerics-pilot-halves pilot moment (/ step 2)))))
-    (if made
-        (let ((order (* 2 (numerics-gauss-run-stages whole))) (error (numerics-pilot-error pilot))
-              (allowed (numerics-controls-relative (numerics-pilot-controls pilot))))
-          (if (> error 0d0)
-              (max 0.125d0 (min 4d0 (* 0.9d0 (expt (/ allowed error) (/ 1d0 (1+ order))))))
-              4d0))
-        0.125d0)))
+         (moment (copy-seq (numerics-pilot-moment pilot))))
+    (when (and (numerics-pilot-made whole pilot moment (numerics-pilot-after pilot) step)
+               (numerics-pilot-halves pilot moment (/ step 2)))
+      (let ((order (* 2 (numerics-gauss-run-stages whole))) (error (numerics-pilot-error pilot))
+            (allowed (numerics-controls-relative (numerics-pilot-controls pilot))))
+        (if (> error 0d0)
+            (max 0.125d0 (min 4d0 (* 0.9d0 (expt (/ allowed error) (/ 1d0 (1+ order))))))
+            4d0)))))
 
 (defun numerics-pilot-made (run pilot moment state step)
   "Whether a step from the place of PILOT could be made; STATE is where it ends."

@@ -118,7 +118,7 @@
         (numerics-advance stage (* (aref nodes i) step))))))
 
 (defun numerics-gauss-set-weights (run state)
-  "What a change is multiplied with: 1/(|x_k| + |increments| + s_k); 0 for what neither is nor moves."
+  "What a change is multiplied with: 1/(|x_k| + |increments| + s_k); 0 for what is and stays 0."
   (declare (type numerics-vector state) (optimize speed))
   (let ((weights (numerics-gauss-run-weights run)) (scales (numerics-gauss-run-scales run))
         (increments (numerics-gauss-run-increments run)) (n (numerics-gauss-run-size run)))
@@ -134,19 +134,18 @@
   "The loop of numerics-gauss-set-states for a known number of STAGES: twice as fast."
   (flet ((names (letter) (loop for i below stages collect (intern (format nil "~a~d" letter i)))))
     (let ((stage-states (names "STATE")) (gains (names "GAIN")))
-      `(let ,(loop for name in stage-states for i from 0 collect `(,name (svref states ,i)))
-         (declare (type numerics-vector ,@stage-states))
-         (loop for k of-type numerics-index from from below to
-               do (let ((x (aref state k)) (kept (aref low k))
-                        ,@(loop for name in gains for j from 0
-                                collect `(,name (aref increments (+ k (* ,j n))))))
-                    ,@(loop for name in stage-states
-                            for row from 0 by stages
-                            collect `(setf (aref ,name k)
-                                           (+ x (+ kept
-                                                   ,@(loop for gain in gains for j from row
-                                                           collect `(* ,gain
-                                                                       (aref quotients ,j)))))))))))))
+      (flet ((row-times-gains (row)
+               (loop for gain in gains for j from row collect `(* ,gain (aref quotients ,j)))))
+        `(let ,(loop for name in stage-states for i from 0 collect `(,name (svref states ,i)))
+           (declare (type numerics-vector ,@stage-states))
+           (loop for k of-type numerics-index from from below to
+                 do (let ((x (aref state k)) (kept (aref low k))
+                          ,@(loop for name in gains for j from 0
+                                  collect `(,name (aref increments (+ k (* ,j n))))))
+                      ,@(loop for name in stage-states
+                              for row from 0 by stages
+                              collect `(setf (aref ,name k)
+                                             (+ x (+ kept ,@(row-times-gains row))))))))))))
 
 (defun numerics-gauss-set-states (run state from to)
   "The places FROM to TO of all Y_i."
@@ -165,8 +164,8 @@
       (6 (numerics-unrolled-states 6)))))
 
 (defmacro numerics-with-gauss-increments ((run from) &body body)
-  "BODY, in which (take i) makes the increments of stage i from place FROM on from the slopes in OUT;
-at its end RUN knows how much they changed, and whether all are finite."
+  "BODY, in which (take i) makes the increments of stage i from place FROM on from the slopes in
+OUT; at its end RUN knows how much they changed, and whether all are finite."
   `(let ((increments (numerics-gauss-run-increments ,run)) (parts (numerics-gauss-run-parts ,run))
          (weights (numerics-gauss-run-weights ,run)) (out (numerics-gauss-run-out ,run))
          (n (numerics-gauss-run-size ,run)) (change 0d0) (sum 0d0))
@@ -222,9 +221,9 @@ at its end RUN knows how much they changed, and whether all are finite."
     (incf (numerics-counts-rates (numerics-gauss-run-counts run)) (numerics-gauss-run-stages run))))
 
 (defun numerics-gauss-iterate (run state)
-  "Sweeps until there is no further improvement, or the next would bring less than a thousandth of a
-last place, going by the slower of the last two; nil, or what went wrong. Changes may shrink in every
-second sweep only, so that one without improvement ends it at the last place, two elsewhere."
+  "Sweeps until there is no further improvement, or the next would bring less than a thousandth of
+a last place, going by the slower of the last two; nil, or what went wrong. Changes may shrink in
+every second sweep only: one without improvement ends it at the last place, two elsewhere."
   (let ((best 0d0) (worse 0) (last 0d0) (rate 0d0) (slower 1d0))
     (declare (double-float best last rate slower) (fixnum worse) (optimize speed))
     (numerics-gauss-set-weights run state)

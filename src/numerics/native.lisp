@@ -4,7 +4,9 @@
 ;;;     (numerics-with-masked-traps ..)   floats give infinity and NaN inside, never an error
 ;;;     (numerics-load-library '("libklu.so.1" "libklu.so.2")) -> the name that was found, or nil
 ;;;     (numerics-foreign-call "klu_solve" :int (:address symbolic) (:int n) (:vector b)) calls C
-;;;     (numerics-seconds)                the clock on the wall, fine to a microsecond
+;;;     (numerics-interruptible ..)       the value, or :interrupted where the person does that
+;;;     (numerics-seconds)                the clock on the wall, fine to a microsecond;
+;;;                                       numerics-working-seconds without the time of loading
 ;;;     (numerics-infinity), (numerics-not-a-number)
 ;;; Numbers go through none of these as objects, so that nothing is allocated.
 ;;; A foreign call is for after its library was loaded, and inside masked traps. Types are :int,
@@ -36,6 +38,22 @@
   #+sbcl (multiple-value-bind (seconds microseconds) (sb-ext:get-time-of-day)
            (+ seconds (* 1d-6 microseconds)))
   #-sbcl (/ (get-internal-real-time) (coerce internal-time-units-per-second 'double-float)))
+
+(defun numerics-working-seconds ()
+  "A clock that rests while parts are loaded and files are written."
+  (- (numerics-seconds) (core-uncounted-seconds)))
+
+(defun $numerics_working_seconds () (numerics-working-seconds))
+
+;;; What the person interrupts (Ctrl-C) ends here.
+
+(defmacro numerics-interruptible (&body body)
+  "The value of BODY, or :interrupted."
+  #+sbcl `(block nil
+            (handler-bind ((sb-sys:interactive-interrupt
+                             (lambda (condition) (declare (ignore condition)) (return :interrupted))))
+              ,@body))
+  #-sbcl `(progn ,@body))
 
 ;;; Libraries of C. Names have no folder: the system looks where its libraries are.
 

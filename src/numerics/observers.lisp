@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; What looks on while a method steps: a list of functions of the step, each of which says nil,
 ;;; :changed or :stop. The order matters: first what changes the state (projection), then what may
-;;; end the step (events), then what reads it (rows, drifts, progress). Rows are numbers in one
+;;; end the step (events), then what reads it (drifts, rows, progress). Rows are numbers in one
 ;;; vector, (time, state) after (time, state).
 
 (in-package :maxima)
@@ -92,43 +92,6 @@ was found between two steps back to the constraints."
                  (= time (aref (numerics-rows-numbers rows)
                                (* (1- count) (numerics-rows-width rows)))))
       (numerics-add-row rows time (numerics-outcome-state outcome)))))
-
-;;; Drifts of what should not change
-
-(defstruct numerics-drifts
-  functions                                          ; (moment x out): values, then their sizes
-  (count 0 :type fixnum)
-  (first (numerics-zeros 0) :type numerics-vector)   ; the values at the start
-  (values (numerics-zeros 0) :type numerics-vector)
-  (largest (numerics-zeros 0) :type numerics-vector)) ; drifts, then sizes
-
-(defun numerics-new-drifts (functions count moment state)
-  "Looks at COUNT values of FUNCTIONS, which gives after them what each of them is a small sum of."
-  (let ((values (numerics-zeros (* 2 count))) (largest (numerics-zeros (* 2 count))))
-    (funcall functions moment state values)
-    (loop for k from count below (* 2 count) do (setf (aref largest k) (abs (aref values k))))
-    (make-numerics-drifts :functions functions :count count :first (subseq values 0 count)
-                          :values values :largest largest)))
-
-(defun numerics-see-drifts (drifts step)
-  "Notes the largest drifts and sizes at the end of STEP; nil."
-  (let ((values (numerics-drifts-values drifts)) (largest (numerics-drifts-largest drifts))
-        (first (numerics-drifts-first drifts)) (count (numerics-drifts-count drifts)))
-    (funcall (the function (numerics-drifts-functions drifts))
-             (numerics-step-to step) (numerics-step-after step) values)
-    (dotimes (k count nil)
-      (setf (aref largest k)
-            (max (aref largest k) (abs (- (aref values k) (aref first k))))
-            (aref largest (+ count k))
-            (max (aref largest (+ count k)) (abs (aref values (+ count k))))))))
-
-(defun numerics-relative-drifts (drifts)
-  "A list: each drift over the larger of the value at the start and the largest size; 0 where both
-are 0."
-  (loop with count = (numerics-drifts-count drifts) and largest = (numerics-drifts-largest drifts)
-        for k below count
-        for size = (max (abs (aref (numerics-drifts-first drifts) k)) (aref largest (+ count k)))
-        collect (if (zerop size) (aref largest k) (/ (aref largest k) size))))
 
 ;;; Progress
 

@@ -63,7 +63,6 @@
   time-slope ; nil, or (time x out): dX/dt
   mass       ; nil for the identity, else a constant numerics-matrix
   names      ; Maxima expressions of the states, for messages
-  angles     ; list of the places of states that are angles: their scale is 1
   split      ; nil, or the number k where x = (q, v), q' = v, and v' depends on q, v and t (k = n/2)
   program)   ; what the rates were made from, for methods in other arithmetics: numerics-program
 
@@ -83,7 +82,11 @@
   (largest-step nil)
   (most-steps nil)     ; nil: no limit
   (mends-start nil)    ; the algebraic part of an inconsistent start is mended, by implicit methods
-  (looks-for nil)      ; :stiffness (explicit methods), :end-of-stiffness (implicit ones): see auto
+  (inspect nil)        ; nil, or (step): before a step of chosen length is accepted, nil, or the share
+                       ; of it that may be, and whether that leads over a jump; or a sentence that
+                       ; says why the run ends there
+  (looks-for nil)      ; :stiffness, or :much-stiffness, of very many steps (explicit methods),
+                       ; :end-of-stiffness (implicit ones): see auto
   (counts (make-numerics-counts)))
 
 ;;; A step that was accepted, as the observer sees it; it holds during the call only.
@@ -93,13 +96,15 @@
   (to (numerics-zeros 2) :type (simple-array double-float (*)))
   (before (numerics-zeros 0) :type (simple-array double-float (*))) ; states
   (after (numerics-zeros 0) :type (simple-array double-float (*)))
-  interpolate) ; (share out): the state at from + share*(to - from), 0 <= share <= 1, into OUT
+  interpolate  ; (share out): the state at from + share*(to - from), 0 <= share <= 1, into OUT
+  nodes)       ; nil, or ((share . weight) ..) at which a function of the state is integrated as
+               ; accurately as the method is, by the interpolated states
 
 ;;; How a method ended.
 
 (defstruct numerics-outcome
   status   ; :end, :stopped, :stiff, :not-stiff (of those that look for it), or what went wrong:
-           ; :not-finite, :smallest-step, :no-convergence, :most-steps, :singular,
+           ; :not-finite, :smallest-step, :no-convergence, :most-steps, :too-slow, :singular, :sliding,
            ; :inconsistent (the start, where the mass is singular)
   moment state
   (step 0d0 :type double-float) ; the next step that the method would take

@@ -24,7 +24,8 @@
            (numerics-radau-show run)
            (loop for status = (numerics-radau-begin run)
                    then (or (numerics-radau-limits run) (numerics-radau-step-on run observer))
-                 when status return (numerics-radau-outcome run status)))
+                 unless (member status '(nil :again))
+                   return (numerics-radau-outcome run status)))
       (numerics-release-radau run))))
 
 (defun numerics-radau-show (run)
@@ -33,7 +34,9 @@
         (make-numerics-step :before (numerics-radau-run-before run)
                             :after (numerics-radau-run-after run)
                             :interpolate (lambda (share out)
-                                           (numerics-radau-between run share out)))))
+                                           (numerics-radau-between run share out))
+                            :nodes (numerics-with-radau-numbers (c1 c2 b1 b2)
+                                     (list (cons c1 b1) (cons c2 b2) (cons 1d0 (/ 9d0)))))))
 
 (defun numerics-radau-between (run share out)
   "The state SHARE of the step after its beginning, by the collocation polynomial, into OUT."
@@ -65,9 +68,15 @@
             ((and most (>= (+ (numerics-counts-steps counts) (numerics-counts-rejected counts))
                            most))
              :most-steps)
+            ((numerics-radau-hopeless run) :too-slow)
             ((numerics-radau-run-last run)
              (setf (numerics-radau-run-step run) left)
              nil)))))
+
+(defun numerics-radau-hopeless (run)
+  (numerics-with-radau (run pace controls moment)
+    (let ((sentence (numerics-hopeless pace controls moment)))
+      (when sentence (setf (numerics-radau-run-about run) sentence)))))
 
 (defun numerics-radau-prepare (run)
   "Jacobian and factors for the step; a status, :again where the step had to be shortened, or nil."
@@ -165,7 +174,8 @@
     (cond ((not (numerics-finite-p largest-error)) (numerics-radau-reject run 0.25d0 :not-finite))
           ((>= largest-error 1d0)
            (numerics-radau-reject run (if first 0.1d0 (/ (numerics-radau-divisor run))) nil))
-          ((numerics-radau-look-ahead run) (numerics-radau-accept run observer))
+          ((numerics-radau-look-ahead run)
+           (or (numerics-radau-inspect run) (numerics-radau-accept run observer)))
           (t (incf (numerics-counts-not-finite (numerics-radau-run-counts run)))
              (numerics-radau-reject run 0.25d0 :not-finite)))))
 
@@ -182,27 +192,62 @@
   (incf (numerics-counts-steps (numerics-radau-run-counts run)))
   (numerics-radau-predict run)
   (numerics-radau-collocate run)
-  (numerics-radau-note-moments run)
+  (numerics-radau-see run)
   (setf (numerics-radau-run-first run) nil
         (numerics-radau-run-failure run) nil)
   (let ((said (funcall observer (numerics-radau-run-seen run))))
     (replace (numerics-radau-run-before run) (numerics-radau-run-after run))
+    (replace (numerics-radau-run-moment run) (numerics-step-to (numerics-radau-run-seen run)))
     (cond ((eq said :stop) :stopped)
           ((numerics-radau-run-last run) :end)
           (t (numerics-radau-choose-next-step run)
+             (numerics-radau-resume run)
              (cond ((numerics-radau-calm-p run) :not-stiff)
                    ((eq said :changed) (numerics-radau-first-slope run))
                    (t (replace (numerics-radau-run-slope run) (numerics-radau-run-ahead run))
                       nil))))))
 
-(defun numerics-radau-note-moments (run)
+(defun numerics-radau-see (run)
+  "The moments of the step, as it is seen."
   (numerics-with-radau (run seen moment step controls last)
-    (replace (numerics-step-from seen) moment)
-    (if last
-        (setf (aref moment 0) (numerics-controls-end controls)
-              (aref moment 1) 0d0)
-        (numerics-advance moment step))
-    (replace (numerics-step-to seen) moment)))
+    (let ((to (numerics-step-to seen)))
+      (replace (numerics-step-from seen) moment)
+      (replace to moment)
+      (if last
+          (setf (aref to 0) (numerics-controls-end controls)
+                (aref to 1) 0d0)
+          (numerics-advance to step))
+      seen)))
+
+(defun numerics-radau-inspect (run)
+  "Where the controls look at the step before it stands: :again where it is cut, the status in which
+RUN ends before it, or nil."
+  (let ((inspect (numerics-controls-inspect (numerics-radau-run-controls run))))
+    (when inspect
+      (numerics-radau-collocate run)
+      (multiple-value-bind (share over) (funcall (the function inspect) (numerics-radau-see run))
+        (cond ((null share) nil)
+              ((stringp share)
+               (setf (numerics-radau-run-about run) share)
+               :sliding)
+              (t (numerics-radau-cut run share over)
+                 :again))))))
+
+(defun numerics-radau-cut (run share over)
+  "The next trial of RUN is SHARE of this one, and leads OVER a jump or to it."
+  (numerics-with-radau (run resumed step)
+    (setf (numerics-radau-run-resumed run) (max resumed (abs step))
+          (numerics-radau-run-before-jump run) (not over))
+    (numerics-radau-reject run share nil)))
+
+(defun numerics-radau-resume (run)
+  "After a step that was cut, and the one over the jump, the next trial is as long as that before."
+  (numerics-with-radau (run resumed step next-step before-jump)
+    (when (> resumed (abs next-step))
+      (setf (numerics-radau-run-next-step run) (float-sign step resumed)
+            (numerics-radau-run-step run) (float-sign step resumed)))
+    (unless before-jump (setf (numerics-radau-run-resumed run) 0d0))
+    (setf (numerics-radau-run-before-jump run) nil)))
 
 (defun numerics-radau-choose-next-step (run)
   "And what is kept for it: the factors are, where it would become a little shorter or longer."

@@ -37,6 +37,7 @@
   convergence          ; ratio of the changes of the last iterations
   remaining            ; convergence/(1 - convergence)
   newton-goal          ; where the iteration ends
+  resumed              ; the step before a jump made it shorter, or 0
   radius)              ; estimate of the spectral radius of the Jacobian
  problem controls counts
  (moment (numerics-zeros 2) :type (simple-array double-float (*)))
@@ -50,12 +51,14 @@
  (first t)             ; no step was accepted so far
  (rejected nil)        ; the last step tried was rejected
  (last nil)            ; the step tried ends at the end of the controls
+ (before-jump nil)     ; it leads to a jump
  (iterations 0 :type fixnum)
  (trust 0 :type fixnum)          ; steps that may end after one iteration
  (failure nil)         ; :not-finite or :no-convergence where the last step tried had no stages
  (orientation nil)     ; the sign of the determinant of the real system for short steps, if known
  (singular 0 :type fixnum)       ; how often in turn the matrices were singular
  (calm 0 :type fixnum)           ; steps in turn with step*radius < 1
+ pace
  direction             ; of the power iterations for the radius, nil where it is not asked for
  about)
 
@@ -74,6 +77,7 @@
          (pattern (or (numerics-problem-pattern problem) (numerics-full-pattern n)))
          (run (make-numerics-radau-run
                :problem problem :controls controls :counts (numerics-controls-counts controls)
+               :pace (make-numerics-pace :moment (copy-seq moment))
                :moment (copy-seq moment) :mass mass :before (copy-seq state)
                :after (copy-seq state) :scales (numerics-full-scales controls n)
                :pattern pattern

@@ -40,7 +40,7 @@
 
 (defun numerics-settled-rates (rates solved)
   "RATES with X divided by M as far as it goes. SOLVED, of constant groups: nil, they stay in M;
-:regular, those that are singular; t, none, and a singular one is an error."
+:regular, those that are singular or long; t, none, and a singular one is an error."
   (if (null (forms-rates-mass rates))
       rates
       (let* ((rows (forms-rates-mass rates)) (copy (copy-forms-rates rates)) (kept '())
@@ -67,7 +67,9 @@
          (numbers (and constant (numerics-number-rows rows)))
          (singular (or (every #'null rows) (and numbers (numerics-kernel-of group numbers))))
          (names (numerics-guarded-names rates group))
-         (stays (if singular (not (eq solved t)) (and constant (cdr group) (not solved)))))
+         (stays (if singular
+                    (not (eq solved t))
+                    (and constant (cdr group) (numerics-mass-stays-p group solved)))))
     (when (and singular (not stays)) (numerics-fault-group names))
     (when (and numbers (cdr group) (not singular))
       (numerics-guard-group rates (numerics-constant-guards names rows numbers)))
@@ -75,6 +77,11 @@
       (let ((steps (numerics-solve-group names group rows right)))
         (unless constant (numerics-guard-group rates (numerics-group-guards names rows steps))))
       t)))
+
+(defun numerics-mass-stays-p (group solved)
+  "Whether the constant regular GROUP stays in M; a long one would fill the program."
+  (or (null solved)
+      (and (eq solved :regular) (> (length group) *numerics-dense-group*))))
 
 (defun numerics-guard-group (rates guards)
   (setf (forms-rates-guards rates) (append (forms-rates-guards rates) guards)))

@@ -81,10 +81,18 @@
          (numbers (numerics-numbers (forms-rates-elements rates) point)))
     (unless numbers (numerics-check-denominators rates values point))
     (forms-verdict-of "values put in: against the program without them"
-                      (or (mapcar #'cons numbers
-                                  (numerics-numbers (forms-rates-elements new) point))
+                      (or (append (mapcar #'cons numbers
+                                          (numerics-numbers (forms-rates-elements new) point))
+                                  (numerics-integral-pairs rates new point))
                           '((nil)))
                       point)))
+
+(defun numerics-integral-pairs (rates new point)
+  "The values of the integrals that NEW has, those of RATES beside them, where they have any."
+  (loop for (name . elements) in (forms-rates-integrals new)
+        for before = (numerics-numbers (cdr (assoc name (forms-rates-integrals rates))) point)
+        for after = (numerics-numbers elements point)
+        when (and before after) append (mapcar #'cons before after)))
 
 (defun numerics-numbers (elements point)
   (catch 'forms-no-value (forms-program-values elements point)))

@@ -10,26 +10,22 @@
                 "numerics/routine"))
 
 (defun numerics-problem-of-program (record names &rest options)
-  "The problem of RECORD, whose states are NAMES, or nil where the record has them as `states'; where
-it has `angles', they are marked. OPTIONS are those of numerics-problem-of."
-  (let* ((names (or names (cdr (algebra-record-part record '$states))))
-         (angles (third (find '$angles (cdr record) :key #'second))))
-    (apply #'numerics-problem-of (numerics-read-program record names)
-           (append options
-                   (list :angles (loop for name in names
-                                       for place from 0
-                                       when (member name (cdr angles) :test #'alike1)
-                                         collect place))))))
+  "The problem of RECORD, whose states are NAMES, or nil where the record has them as `states';
+OPTIONS are those of numerics-problem-of."
+  (apply #'numerics-problem-of
+         (numerics-read-program record
+                                (or names (cdr (algebra-record-part record '$states))))
+         options))
 
-(defun numerics-problem-of (program &key angles (jacobian t) (how :auto) (calls 0))
-  "ANGLES are places of states. JACOBIAN nil leaves the jacobian for numerics-add-jacobian. HOW is
-:machine, :compiled or :auto, by the number of CALLS of the rates that are expected."
+(defun numerics-problem-of (program &key (jacobian t) (how :auto) (calls 0))
+  "JACOBIAN nil leaves the jacobian for numerics-add-jacobian. HOW is :machine, :compiled or :auto, by
+the number of CALLS of the rates that are expected."
   (let ((problem (make-numerics-problem
                   :size (length (numerics-program-names program))
                   :rates (numerics-routine program (numerics-program-rates program)
                                            :how how :calls calls)
                   :mass (numerics-mass-matrix program)
-                  :names (numerics-program-names program) :angles angles
+                  :names (numerics-program-names program)
                   :split (numerics-split program) :program program)))
     (if jacobian
         (numerics-add-jacobian problem :how how)

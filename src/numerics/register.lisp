@@ -17,19 +17,51 @@
 ;;; Runs
 
 (core-option '("auto" "dop853" "radau" "gauss" "dlsode") "method")
-(core-option :truth "stop")
+(core-option :truth "stop" "estimate" "conditioning")
 (core-argument :motion "start")
 (core-argument :interval "time")
 
 (core-rule "run" :any "numerics/run_options" "numerics_wishes" '("method" $auto) '("points" 101)
-  '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("step" 0))
+  '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("first_step" 0)
+  '("estimate" nil) '("conditioning" nil))
 
 (core-public "Simulate"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
            ("equations" "equations" "start" "time"))
   :trailing '("start" "time")
-  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "step" "rayleigh"
-             "forces" "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
+  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "first_step" "integrals"
+             "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces" "constraints"
+             "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
-(core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "rates" *numerics-values*
-  "start" "time" "run")
+(core-rule "derivation_began" :any "numerics/native" "numerics_working_seconds")
+(core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"
+  *numerics-values* "start" "time" "run")
+
+;;; Pictures
+
+(core-option :file "file")
+(core-option :truth "replace")
+(core-argument :window "horizontal" "vertical")
+
+(core-rule "picture" :any "numerics/pictures" "numerics_picture" '("file" nil) '("replace" nil))
+(core-rule "curves" :any "numerics/time_plot" "numerics_curves" "plot" "rates" *numerics-values*
+  "start")
+(core-act "Simulate" "plot" :any "numerics/time_plot" "numerics_time_plot" "picture" "curves"
+  "Simulate")
+
+(core-rule "window" :any "numerics/plane" "numerics_window" "horizontal" "vertical"
+  '("start" ((mlist simp))))
+(core-rule-tried "rest_points_or_why" :any "rest_points")
+(core-rule "plane" :any "numerics/plane" "numerics_plane" "rates" *numerics-values* "window")
+(core-rule "portrait" :any "numerics/phase_portrait" "numerics_portrait" "plane"
+  "rest_points_or_why")
+
+(core-public "PhasePortrait"
+  :forms '(("lagrangian" "Lagrangian" "coordinates" "horizontal" "vertical")
+           ("equations" "equations" "horizontal" "vertical"))
+  :trailing '("horizontal" "vertical")
+  :options '("values" "start" "file" "replace" "rayleigh" "forces" "constraints" "nonholonomic"
+             "laws" "function" "cyclic" "momenta" "variables")
+  :numerical t)
+(core-act "PhasePortrait" nil :any "numerics/phase_portrait" "numerics_phase_portrait" "picture"
+  "portrait")

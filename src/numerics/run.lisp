@@ -9,7 +9,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "forms/dynamics"
-                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/events"
+                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/decimals"
+                "numerics/events"
                 "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
                 "numerics/back_to_constraints" "numerics/rates_problem" "numerics/routine"
                 "numerics/run_options"))
@@ -19,8 +20,14 @@
   (moment (numerics-zeros 2) :type numerics-vector) ; the start
   (state (numerics-zeros 0) :type numerics-vector)
   rows events guards constraints outcome
+  drifts drifting                                   ; those of integrals, and their names
+  untold                                            ; sentences on integrals that are not given
   lost                                              ; (coordinate share) of a pivot that was lost
-  (seconds 0d0))                                    ; of the method alone
+  fault                                             ; why an observer ended it, a phrase
+  (began 0d0)                                       ; when the method began
+  (seconds 0d0)                                     ; of the method alone, without compilations
+  (compiled-on-the-way 0d0)                         ; seconds of these
+  (compile-seconds 0d0) (derivation-seconds 0d0))
 
 (defun numerics-name-text (name) (core-words (list name)))
 
@@ -34,13 +41,17 @@
    :guards (loop for (nil pivot . whole) in (forms-rates-guards rates)
                  collect (algebra-program-divide pivot whole))))
 
+(defun numerics-open-names (rates elements)
+  "What has no value in ELEMENTS, as texts."
+  (mapcar #'numerics-name-text
+          (remove-if (lambda (name)
+                       (or (member name '($t $%pi $%e))
+                           (member name (forms-rates-states rates) :test #'alike1)))
+                     (algebra-inputs-of elements))))
+
 (defun numerics-check-names (rates elements)
   "An error where ELEMENTS hold a name without a number."
-  (let ((open (mapcar #'numerics-name-text
-                      (remove-if (lambda (name)
-                                   (or (member name '($t $%pi $%e))
-                                       (member name (forms-rates-states rates) :test #'alike1)))
-                                 (algebra-inputs-of elements)))))
+  (let ((open (numerics-open-names rates elements)))
     (when open
       (core-error "~{~a~^, ~} ha~:[s~;ve~] no value; give parameters = [~a = .., ..] or the key ~
                    values"
@@ -79,8 +90,7 @@ put in, pairs (name . element)."
                  :rates rates :values values :wishes wishes :program program
                  :moment (numerics-moment from)
                  :state (numerics-start-vector rates start)
-                 :problem (numerics-problem-of program :angles (numerics-angle-places rates)
-                                                       :jacobian nil))))
+                 :problem (numerics-problem-of program :jacobian nil))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
             (numerics-simulation-constraints run) (numerics-constraints-of rates program))
@@ -124,7 +134,7 @@ momenta that have one of VALUES, equations, begin with it."
     (make-numerics-controls
      :end end :relative relative :scales scales
      :first-step (let ((step (numerics-wishes-step wishes)))
-                   (unless (eql step 0) (numerics-double step "step"))))))
+                   (unless (eql step 0) (numerics-double step "first_step"))))))
 
 (defun numerics-guard-routine (program)
   (when (numerics-program-guards program)
@@ -185,25 +195,33 @@ momenta that have one of VALUES, equations, begin with it."
   (let ((rates (numerics-zeros (length (numerics-simulation-state run)))))
     (numerics-with-masked-traps
       (funcall (numerics-problem-rates (numerics-simulation-problem run))
-               (numerics-simulation-moment run) (numerics-simulation-state run) rates))
-    (loop for rate across rates
-          for name in (forms-rates-states (numerics-simulation-rates run))
-          do (unless (numerics-finite-p rate)
-               (core-error "at the start the rate of ~a has no finite value; the equations are ~
-                            singular there: start elsewhere" (numerics-name-text name))))))
+               (numerics-simulation-moment run) (numerics-simulation-state run) rates)
+      (loop for rate across rates
+            for name in (forms-rates-states (numerics-simulation-rates run))
+            do (unless (numerics-finite-p rate)
+                 (core-error "at the start the rate of ~a has no finite value; the equations are ~
+                              singular there: start elsewhere" (numerics-name-text name)))))))
 
 (defun numerics-lost-pivot (run moment state)
   "The coordinate whose pivot is lost at STATE, and what is left of it; nil where there is none."
   (when (numerics-simulation-guards run)
     (let ((shares (numerics-zeros (length (forms-rates-guards (numerics-simulation-rates run))))))
-      (numerics-with-masked-traps (funcall (numerics-simulation-guards run) moment state shares))
-      (loop for share across shares
-            for (name) in (forms-rates-guards (numerics-simulation-rates run))
-            unless (> (abs share) *numerics-least-pivot*)
-              do (return (list (numerics-name-text name) share))))))
+      (numerics-with-masked-traps
+        (funcall (numerics-simulation-guards run) moment state shares)
+        (loop for share across shares
+              for (name) in (forms-rates-guards (numerics-simulation-rates run))
+              unless (> (abs share) *numerics-least-pivot*)
+                do (return (list (numerics-name-text name) share)))))))
+
+(defun numerics-lost-words (lost)
+  "What is said of a pivot that is LOST: (coordinate share); where M_kk is 0 too the share is no number."
+  (destructuring-bind (name share) lost
+    (if (numerics-with-masked-traps (= share share))
+        (format nil "of the inertia of ~a ~a of 1 is left when the bodies beyond it yield"
+                name (numerics-short-number share))
+        (format nil "the inertia of ~a vanishes" name))))
 
 (defun numerics-check-pivots (run moment state)
   (let ((lost (numerics-lost-pivot run moment state)))
     (when lost
-      (core-error "the mass matrix is singular at the start: of the inertia of ~a ~,2g of 1 is left ~
-                   when the bodies beyond it yield" (first lost) (second lost)))))
+      (core-error "the mass matrix is singular at the start: ~a" (numerics-lost-words lost)))))

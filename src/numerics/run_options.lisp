@@ -11,17 +11,19 @@
 (core-record numerics-wishes
   "METHOD a symbol; POINTS a number of rows or a list of times; TOLERANCE as typed; EVENTS a list of
 expressions, of which the first STOP = true ends the run; DIGITS 0 for double-float numbers; STEP of
-methods with a fixed one, or 0."
-  method points tolerance events stop digits step)
+methods with a fixed one, or 0; ESTIMATE and CONDITIONING: whether these are wanted."
+  method points tolerance events stop digits step estimate conditioning)
 
 ;;; Numbers
 
 (defun numerics-double (e what)
   "The double-float number next to the Maxima constant E; WHAT it is, for the message."
   (let ((value (car (core-attempt (lambda () ($float e))))))
-    (if (and (floatp value) (numerics-finite-p (coerce value 'double-float)))
-        (coerce value 'double-float)
-        (core-error "~a must be a number, found ~a" what (core-words (list e))))))
+    (cond ((and (floatp value) (numerics-finite-p (coerce value 'double-float)))
+           (coerce value 'double-float))
+          ((mnump e)
+           (core-error "~a is beyond the range of double-float numbers, 1.8e308" what))
+          (t (core-error "~a must be a number, found ~a" what (core-words (list e)))))))
 
 (defun numerics-items (list)
   (and (consp list) (consp (car list)) (eq (caar list) 'mlist) (cdr list)))

@@ -6,106 +6,13 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "algebra/program_record" "forms/rates"
-                "numerics/decimals" "numerics/events" "numerics/jacobian" "numerics/native"
-                "numerics/observers" "numerics/problem" "numerics/back_to_constraints"
-                "numerics/rate_program" "numerics/run" "numerics/run_options"))
-
-;;; Methods
-
-(defparameter *numerics-methods*
-  '(($auto "numerics/automatic" numerics-automatic)
-    ($dop853 "numerics/dormand_prince" numerics-dopri)
-    ($radau "numerics/radau" numerics-radau)
-    ($gauss "numerics/gauss" numerics-gauss)
-    ($dlsode "numerics/dlsode" numerics-dlsode))
-  "Each row: the word for a method, its part and its function.")
-
-(defparameter *numerics-implicit-methods* '($auto $radau $dlsode) "Those that take a jacobian.")
-
-(defun numerics-method (run)
-  (destructuring-bind (part function)
-      (cdr (assoc (numerics-wishes-method (numerics-simulation-wishes run)) *numerics-methods*))
-    (core-require part)
-    function))
-
-(defun numerics-prepare-method (run)
-  "The function of the method, with what it needs of the problem."
-  (let ((problem (numerics-simulation-problem run))
-        (method (numerics-wishes-method (numerics-simulation-wishes run))))
-    (cond ((member method *numerics-implicit-methods*) (numerics-add-jacobian problem))
-          ((numerics-problem-mass problem)
-           (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is not ~
-                        divided out; take method = radau" (core-spelling method))))
-    (numerics-method run)))
-
-;;; What looks on
-
-(defun numerics-guard-part (run)
-  "A part of an observer that stops where a pivot is lost."
-  (lambda (step)
-    (let ((lost (numerics-lost-pivot run (numerics-step-to step) (numerics-step-after step))))
-      (when lost
-        (setf (numerics-simulation-lost run) lost)
-        :stop))))
-
-(defun numerics-run-observer (run)
-  (numerics-observer
-   (remove nil
-           (list (and (numerics-simulation-constraints run)
-                      (numerics-projection-part (numerics-simulation-constraints run)))
-                 (and (numerics-simulation-guards run) (numerics-guard-part run))
-                 (and (numerics-simulation-events run)
-                      (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
-                 (lambda (step) (numerics-see-rows (numerics-simulation-rows run) step))
-                 (numerics-progress-part (numerics-simulation-controls run))))))
-
-(defparameter *numerics-share-of-time* 9/10
-  "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
-
-(defun numerics-carry-out (run)
-  "Makes the RUN; the sentence of the stop where its time was up."
-  (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
-         (began (numerics-seconds)) (outcome nil))
-    (multiple-value-bind (value stop)
-        (core-within *numerics-share-of-time*
-                     (lambda ()
-                       (numerics-with-masked-traps
-                         (setq outcome (funcall method (numerics-simulation-problem run)
-                                                (numerics-simulation-controls run)
-                                                (copy-seq (numerics-simulation-moment run))
-                                                (copy-seq (numerics-simulation-state run)) observer)))))
-      (declare (ignore value))
-      (setf (numerics-simulation-seconds run) (- (numerics-seconds) began)
-            (numerics-simulation-outcome run) outcome)
-      (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))
-      stop)))
+  (core-require "algebra/program_nodes" "forms/rates"
+                "numerics/decimals" "numerics/events" "numerics/observers" "numerics/problem"
+                "numerics/rate_program" "numerics/routine" "numerics/run" "numerics/run_course"
+                "numerics/run_estimate" "numerics/run_integrals" "numerics/run_options"
+                "numerics/run_report"))
 
 ;;; What is told
-
-(defun numerics-trouble (run)
-  "Why the RUN did not come to its end, a phrase; nil where it did."
-  (let ((outcome (numerics-simulation-outcome run)))
-    (if (and (numerics-simulation-constraints run)
-             (numerics-constraints-singular (numerics-simulation-constraints run)))
-        "the constraints depend on each other there"
-        (and (or (numerics-simulation-lost run)
-                 (not (member (numerics-outcome-status outcome) '(:end :stopped))))
-             (numerics-trouble-of-steps run outcome)))))
-
-(defun numerics-trouble-of-steps (run outcome)
-  (if (numerics-simulation-lost run)
-      (format nil "the mass matrix becomes singular: of the inertia of ~a ~,2g of 1 is left when ~
-                   the bodies beyond it yield"
-              (first (numerics-simulation-lost run)) (second (numerics-simulation-lost run)))
-      (format nil (ecase (numerics-outcome-status outcome)
-                    (:not-finite "the right-hand side has no finite value there")
-                    (:smallest-step "the step became as small as the last place of t: the solution ~
-                                     or its right-hand side is singular there")
-                    (:no-convergence "the equations of the implicit steps could not be solved")
-                    (:inconsistent "the algebraic equations do not hold there")
-                    (:most-steps "the most steps that were allowed are made")
-                    (:singular "the matrix of the implicit steps is singular")))))
 
 (defun numerics-place-text (run)
   "Where the RUN ended: time and state."
@@ -116,37 +23,35 @@
                   for x across (numerics-outcome-state outcome)
                   append (list (numerics-name-text name) (numerics-short-number x))))))
 
-(defun numerics-tell-end (run stop)
+(defun numerics-tell-end (run stop trouble)
   "A RUN that did not come to its end makes a result that is only a part."
-  (let ((trouble (or stop (numerics-trouble run))))
-    (cond (stop (core-partial "~a; the rows so far are kept as a part" stop))
-          (trouble (core-partial "the run ended at ~a, before t = ~a: ~a~@[; ~a~]"
-                                 (numerics-place-text run)
-                                 (core-words (list (numerics-controls-end
-                                                    (numerics-simulation-controls run))))
-                                 trouble
-                                 (numerics-outcome-about (numerics-simulation-outcome run)))))))
+  (cond (stop (core-partial "~a; the rows so far are kept as a part" stop))
+        (trouble (core-partial "the run ended at ~a, before t = ~a: ~a~@[; ~a~]"
+                               (numerics-place-text run)
+                               (core-words (list (numerics-controls-end
+                                                  (numerics-simulation-controls run))))
+                               trouble
+                               (numerics-outcome-about (numerics-simulation-outcome run))))))
 
-(defun numerics-report (run)
-  "What stands beside the rows, as a Maxima list."
-  (let ((counts (numerics-controls-counts (numerics-simulation-controls run)))
-        (outcome (numerics-simulation-outcome run)))
-    (apply #'algebra-list
-           (append
-            (list (algebra-field '$method (numerics-wishes-method (numerics-simulation-wishes run)))
-                  (algebra-field '$tolerance (numerics-controls-relative
-                                              (numerics-simulation-controls run)))
-                  (algebra-field '$steps (numerics-counts-steps counts))
-                  (algebra-field '$rejected (numerics-counts-rejected counts))
-                  (algebra-field '$rates (numerics-counts-rates counts))
-                  (algebra-field '$jacobians (numerics-counts-jacobians counts))
-                  (algebra-field '$factorisations (numerics-counts-factorisations counts))
-                  (algebra-field '$seconds (numerics-simulation-seconds run)))
-            (when (numerics-simulation-constraints run)
-              (list (algebra-field '$residual (numerics-constraints-largest
-                                               (numerics-simulation-constraints run)))))
-            (when (and outcome (numerics-outcome-about outcome))
-              (list (algebra-field '$about (numerics-outcome-about outcome))))))))
+(defun numerics-tell (run stop)
+  "Says how RUN ended, and gives its report to the result; STOP: its time was up."
+  (let* ((trouble (and (not stop) (numerics-trouble run)))
+         (asked (unless (or stop trouble) (numerics-asked-fields run))))
+    (numerics-tell-end run stop trouble)
+    (numerics-warn-of-drifts run)
+    (core-report "run" (numerics-report
+                        run
+                        (numerics-course-fields run (numerics-status-words run stop trouble))
+                        asked))))
+
+(defun numerics-set-seconds (run began compiled)
+  "The time that the derivation of RUN took since BEGAN, and the compilation of programs when the
+clock of these showed COMPILED."
+  (let ((compilation (- *numerics-compile-seconds* compiled)))
+    (setf (numerics-simulation-compile-seconds run) compilation
+          (numerics-simulation-derivation-seconds run)
+          (- (numerics-simulation-began run) began
+             (- compilation (numerics-simulation-compiled-on-the-way run))))))
 
 (defun numerics-rows-of (rows)
   "ROWS as lists of numbers."
@@ -166,21 +71,42 @@
   "All rows of RUN as a Maxima list; those of events stand at their times."
   (let ((rows (merge 'list (numerics-rows-of (numerics-simulation-rows run))
                      (numerics-event-rows run) #'< :key #'first)))
-    (apply #'algebra-list
+    (cons '(mlist simp)
            (loop for (row next) on rows
                  unless (and next (= (first row) (first next)))
-                   collect (apply #'algebra-list row)))))
+                   collect (cons '(mlist simp) row)))))
+
+(defun numerics-long-p (wishes)
+  "Whether rows of many digits are wanted, and can be had."
+  (unless (eql (numerics-wishes-digits wishes) 0)
+    (core-require "numerics/run_digits")
+    (numerics-check-digits wishes)
+    t))
+
+(defun numerics-mass-wanted (wishes)
+  "How far M is divided out: Radau's method takes it as it is."
+  (if (eq (numerics-wishes-method wishes) '$radau) nil :regular))
+
+(defun numerics-rows-of-run (run began compiled)
+  "Makes RUN; its rows, as a Maxima list."
+  (numerics-watch-integrals run)
+  (let ((stop (numerics-carry-out run)))
+    (numerics-set-seconds run began compiled)
+    (numerics-tell run stop)
+    (numerics-all-rows run)))
 
 ;;; For Maxima.
 
-(defun $numerics_simulate (rates values start span wishes)
-  "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say."
+(defun $numerics_simulate (began rates values start span wishes)
+  "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say;
+BEGAN is the time when their derivation began."
   (with-algebra-program
-    (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
-           (rates (numerics-with-quadratures (numerics-run-rates rates pairs nil) start))
-           (run (numerics-new-run rates pairs (numerics-start-values rates start values) span
-                                  wishes))
-           (stop (numerics-carry-out run)))
-      (numerics-tell-end run stop)
-      (core-report "run" (numerics-report run))
-      (numerics-all-rows run))))
+    (let* ((compiled *numerics-compile-seconds*) (long (numerics-long-p wishes))
+           (pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+           (rates (numerics-with-quadratures
+                   (numerics-run-rates rates pairs (numerics-mass-wanted wishes)) start))
+           (exact (numerics-start-values rates start values))
+           (run (numerics-new-run rates pairs exact span wishes)))
+      (if long
+          (numerics-long-rows run exact span began)
+          (numerics-rows-of-run run began compiled)))))

@@ -89,8 +89,9 @@
   (let ((sum 0d0))
     (dotimes (j (length one) sum) (incf sum (* (aref one j) (aref other j))))))
 
-(defun numerics-independent-rows (rows count size)
-  "The places of those of COUNT rows of SIZE that do not follow from the ones before."
+(defun numerics-row-rests (rows count size)
+  "For each of COUNT rows of SIZE (rest . whole): its length without its part in the span of those
+before it, and its length."
   (let ((basis '()))
     (loop for i below count
           for row = (subseq rows (* i size) (* (1+ i) size))
@@ -99,7 +100,15 @@
                    do (dolist (direction basis)
                         (let ((part (numerics-row-product row direction)))
                           (map-into row (lambda (x y) (- x (* part y))) row direction))))
-          append (let ((rest (sqrt (numerics-row-product row row))))
-                   (when (> rest (* 1d-9 whole))
-                     (push (map-into row (lambda (x) (/ x rest)) row) basis)
-                     (list i))))))
+          collect (let ((rest (sqrt (numerics-row-product row row))))
+                    (when (numerics-independent-p rest whole)
+                      (push (map-into row (lambda (x) (/ x rest)) row) basis))
+                    (cons rest whole)))))
+
+(defun numerics-independent-p (rest whole) (> rest (* 1d-9 whole)))
+
+(defun numerics-independent-rows (rows count size)
+  "The places of those of COUNT rows of SIZE that do not follow from the ones before."
+  (loop for (rest . whole) in (numerics-row-rests rows count size)
+        for i from 0
+        when (numerics-independent-p rest whole) collect i))

@@ -39,6 +39,13 @@ where the motion begins at rest."
         scales
         (make-array size :element-type 'double-float :initial-element 1d0))))
 
+(defun numerics-distance (a b scales)
+  "max |a_i - b_i|/(|b_i| + s_i)"
+  (loop for x across a
+        for y across b
+        for scale across scales
+        maximize (/ (abs (- x y)) (numerics-scale y 0d0 scale))))
+
 (defun numerics-finite-vector-p (vector)
   (declare (type numerics-vector vector) (optimize speed))
   (let ((sum 0d0))
@@ -49,12 +56,14 @@ where the motion begins at rest."
 ;;; Whether the end can be reached
 
 (defstruct numerics-pace
-  "Where a run was, and its steps since then."
-  (steps 0 :type fixnum)
+  "Where a run was, its steps since then, and how often in turn the end was too far."
+  (steps 0 :type fixnum) (far 0 :type fixnum)
   (moment (numerics-zeros 2) :type (simple-array double-float (*))))
 
 (defparameter *numerics-pace-steps* 10000 "The pace is looked at after so many steps.")
 (defparameter *numerics-hopeless-steps* 1d11 "More steps than this would take days.")
+(defparameter *numerics-hopeless-looks* 10
+  "So often in turn the end has to be too far: in a fast part steps are short for a while.")
 
 (defun numerics-steps-left (pace controls moment)
   "The number of steps to the end at the pace of those since the last look."
@@ -67,9 +76,12 @@ where the motion begins at rest."
   (declare (type numerics-vector moment))
   (when (>= (incf (numerics-pace-steps pace)) *numerics-pace-steps*)
     (let ((steps (numerics-steps-left pace controls moment)))
-      (setf (numerics-pace-steps pace) 0)
+      (setf (numerics-pace-steps pace) 0
+            (numerics-pace-far pace) (if (> steps *numerics-hopeless-steps*)
+                                         (1+ (numerics-pace-far pace))
+                                         0))
       (replace (numerics-pace-moment pace) moment)
-      (when (> steps *numerics-hopeless-steps*)
+      (when (>= (numerics-pace-far pace) *numerics-hopeless-looks*)
         (format nil "at the pace of the last steps the end is ~a steps away"
                 (numerics-short-number steps))))))
 

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Rows of many digits by Taylor series. No bound of the error is computed: a result stands only where
-;;; a second run, with other order, other steps and more bits, agrees with it to the digits that are
-;;; wanted; the first run's steps are exact to 4 digits more, those of the next to 5 digits more again,
-;;; and where instability or cancellation costs more than these, runs with as many more follow.
+;;; Rows of many digits by Taylor series. No bound of the error is computed: a result stands only
+;;; where a second run, with other order, other steps and more bits, agrees with it to the digits
+;;; that are wanted. The first run's steps are exact to 4 digits more, those of the next to 5 digits
+;;; more again; where instability or cancellation costs more, runs with as many more follow.
 
 (in-package :maxima)
 
@@ -83,7 +83,7 @@ ended differently."
      :state (map 'numerics-vector
                  (lambda (x) (numerics-double-of-fixed x (numerics-taylor-bits newer)))
                  (numerics-taylor-run-states newer))
-     :rows (and agreed (numerics-taylor-bigfloat-rows newer times digits))
+     :rows (and agreed (numerics-taylor-bigfloat-rows newer times digits agreement))
      :agreement agreement
      :about (if status
                 (numerics-taylor-run-about newer)
@@ -102,9 +102,13 @@ ended differently."
             (order older) (numerics-taylor-run-steps older)
             (order newer) (numerics-taylor-run-steps newer) agreement)))
 
-(defun numerics-taylor-bigfloat-rows (run times digits)
-  (let ((bits (numerics-taylor-bits run)))
+(defun numerics-taylor-bigfloat-rows (run times digits agreement)
+  "What lies beyond the AGREEMENT is no part of a number."
+  (let* ((bits (numerics-taylor-bits run)) (share (expt 10 (floor agreement)))
+         (units (mapcar (lambda (scale) (max 1 (round scale share)))
+                        (numerics-taylor-run-scales run))))
     (loop for row in (reverse (numerics-taylor-run-rows run))
           for time in times
           collect (loop for x in (cons (numerics-fixed time bits) row)
-                        collect (numerics-bigfloat-of-fixed x bits digits)))))
+                        for unit in (cons 1 units)
+                        collect (numerics-bigfloat-of-fixed (* unit (round x unit)) bits digits)))))

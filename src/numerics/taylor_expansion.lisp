@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The Taylor expansion of the solution of M x' = X(t, x), X a program, about a moment: each node of
-;;; the program has a series and a rule, which are run for k = 0, 1, ..; then x_(k+1) is known from
+;;; The Taylor expansion of the solution of M x' = X(t, x), X a program, about a moment: each node
+;;; of the program has a series and rules, which are run for k = 0, 1, ..; then x_(k+1) follows from
 ;;;     (k + 1) M x_(k+1) = scale X_k.
 ;;; The variable of the series is (time - moment)/scale. See numerics-expand first.
 

@@ -12,7 +12,8 @@
 (defun numerics-fixed-inverse (rows bits)
   "The rows of the inverse of the matrix ROWS, both vectors of vectors; nil where it is singular."
   (let* ((n (length rows)) (one (ash 1 bits))
-         (wide (map 'vector (lambda (row) (concatenate 'vector row (make-array n :initial-element 0)))
+         (wide (map 'vector
+                    (lambda (row) (concatenate 'vector row (make-array n :initial-element 0)))
                     rows)))
     (dotimes (i n) (setf (aref (aref wide i) (+ n i)) one))
     (dotimes (j n (map 'vector (lambda (row) (subseq row n)) wide))
@@ -53,7 +54,8 @@ fixed-point number of an element."
                           row))
                       (numerics-program-mass program)))
            (inverse (or (numerics-fixed-inverse rows inner)
-                        (core-error "the matrix mass is singular: a Taylor series needs its inverse"))))
+                        (core-error "the matrix mass is singular, and Taylor series need its ~
+                                     inverse"))))
       (lambda (x)
         (loop for row across inverse
               collect (numerics-shifted (loop for a across row for b in x sum (* a b))

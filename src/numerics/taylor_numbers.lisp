@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Fixed-point numbers: a whole number of Lisp stands for itself times 2^-bits. What a Taylor series
-;;; needs of them: from exact numbers and constants of Maxima, to bigfloats, and the values of
-;;; functions, by Maxima's bigfloats with as many bits more as the result has before its point.
+;;; Fixed-point numbers: a whole number of Lisp stands for itself times 2^-bits. What a Taylor
+;;; series needs of them: from exact numbers and constants of Maxima, to bigfloats, and the values
+;;; of functions, by Maxima's bigfloats with as many bits more as the result has before its point.
 
 (in-package :maxima)
 
@@ -40,9 +40,7 @@
       (numerics-fixed-of-big (cdr (bigfloatp big)) bits))))
 
 (defun numerics-bigfloat-of-fixed (x bits digits)
-  "The bigfloat of DIGITS digits."
-  (with-numerics-bits (numerics-bits-of-digits digits)
-    (bcons (numerics-big-of-fixed x bits))))
+  (core-bigfloat (/ x (ash 1 bits)) digits))
 
 (defun numerics-double-of-fixed (x bits)
   (numerics-rounded (/ x (ash 1 bits))))

@@ -1,14 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Integration by Taylor series in fixed-point numbers to a given accuracy: the order and the step of
-;;; A. Jorba and M. Zou (A software package for the numerical integration of ODEs by means of
-;;; high-order Taylor methods, 2005, section 3): for an error e of a step the order -ln(e)/2 + 1, and
-;;; 1/e^2 of the radius of convergence as the last half of the coefficients show it. A run does not
-;;; know what its rounding costs: see taylor.lisp.
+;;; Integration by Taylor series in fixed-point numbers to a given accuracy: the order and the step
+;;; of A. Jorba and M. Zou (A software package for the numerical integration of ODEs by means of
+;;; high-order Taylor methods, 2005, section 3). For steps exact to a share d the order is
+;;; 1 - log(d)/2, and the step exp(-2), or 1/8, of the radius of convergence as the last half of the
+;;; coefficients show it. A run does not know what its rounding costs: see taylor.lisp.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/taylor_numbers" "numerics/taylor_expansion"))
+  (core-require "numerics/decimals" "numerics/taylor_numbers" "numerics/taylor_expansion"))
 
 (defconstant numerics-taylor-guard-bits 32)
 
@@ -43,9 +43,15 @@
                         do (when (>= (numerics-taylor-run-steps run) most-steps)
                              (return (numerics-taylor-ended run :most-steps nil)))
                            (incf (numerics-taylor-run-steps run))
+                           (numerics-taylor-progress run)
                            (setq scale (numerics-taylor-step run scale))))))
     (when fault (numerics-taylor-ended run :not-finite (format nil "there is ~a" fault)))
     run))
+
+(defun numerics-taylor-progress (run)
+  (core-progress "~d digits, t = ~a" (numerics-taylor-run-digits run)
+                 (numerics-short-number (numerics-double-of-fixed (numerics-taylor-run-moment run)
+                                                                  (numerics-taylor-bits run)))))
 
 (defun numerics-taylor-ended (run status about)
   (setf (numerics-taylor-run-status run) status
@@ -87,7 +93,8 @@
 (defun numerics-taylor-radius (run)
   "The binary logarithm of the radius of convergence in units of the scale: the least of
 (|x_i| + s_i)/|c_k| to the power 1/k for the last half of the coefficients c_k of each state."
-  (let* ((expansion (numerics-taylor-run-expansion run)) (order (numerics-expansion-order expansion)))
+  (let* ((expansion (numerics-taylor-run-expansion run))
+         (order (numerics-expansion-order expansion)))
     (loop for series in (numerics-expansion-states expansion)
           for scale in (numerics-taylor-run-scales run)
           for length = (integer-length (+ (abs (svref series 0)) scale))

@@ -61,7 +61,8 @@
   (let ((shift (- bits)))
     (if (eq x y)
         (lambda (k) (setf (svref out k) (numerics-shifted (numerics-square-sum x k 0) shift)))
-        (lambda (k) (setf (svref out k) (numerics-shifted (numerics-convolution x y k 0 k) shift))))))
+        (lambda (k)
+          (setf (svref out k) (numerics-shifted (numerics-convolution x y k 0 k) shift))))))
 
 (defun numerics-quotient-rule (out x y bits)
   (lambda (k)
@@ -87,21 +88,25 @@
 (defun numerics-derivative-rule (derivative x)
   (lambda (k) (setf (svref derivative k) (* k (svref x k)))))
 
+(defun numerics-integral-term (derivative factor k bits)
+  "The sum of j x_j factor_(k-j), by K."
+  (numerics-divided (numerics-shifted (numerics-convolution derivative factor k 1 k) (- bits)) k))
+
 (defun numerics-integral-rule (out derivative factor bits first)
   "out' = x' factor; FIRST gives the 0-th coefficient."
   (numerics-rule (k) (funcall first)
-    (numerics-divided (numerics-shifted (numerics-convolution derivative factor k 1 k) (- bits)) k)))
+    (numerics-integral-term derivative factor k bits)))
 
 (defun numerics-pair-rule (operation out derivative other direction bits)
-  "out' = DIRECTION x' other: sine and cosine, and the hyperbolic ones; OPERATION is (name . argument)."
+  "out' = DIRECTION x' other: sine and cosine, also hyperbolic; OPERATION is (name . argument)."
   (numerics-rule (k)
       (numerics-fixed-function (car operation) bits (svref (cdr operation) 0))
-    (* direction (numerics-divided (numerics-shifted (numerics-convolution derivative other k 1 k) (- bits)) k))))
+    (* direction (numerics-integral-term derivative other k bits))))
 
 (defun numerics-inverse-rule (out numerator factor bits first)
   "out' factor = x', NUMERATOR having k x_k."
   (numerics-rule (k) (funcall first)
-    (when (zerop (svref factor 0)) (numerics-series-fault "an end of an arc or a logarithm of zero"))
+    (when (zerop (svref factor 0)) (numerics-series-fault "an end of an arc"))
     (let ((sum 0))
       (loop for j from 1 below k
             do (incf sum (* j (svref out j) (svref factor (- k j)))))
@@ -111,7 +116,8 @@
   (numerics-inverse-rule out derivative x bits
                          (lambda ()
                            (unless (plusp (svref x 0))
-                             (numerics-series-fault "the logarithm of a number that is not positive"))
+                             (numerics-series-fault
+                              "the logarithm of a number that is not positive"))
                            (numerics-fixed-function :logarithm bits (svref x 0)))))
 
 (defun numerics-power-rule (out x exponent bits)

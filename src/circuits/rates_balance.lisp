@@ -1,0 +1,101 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The balance of energy of a circuit: what inductors and capacitors store, sum L i^2/2 + C u^2/2 +
+;;; M i1 i2, and what all other branches take, sum u i, as resistors do, or feed, as sources may.
+;;; The first and the integral of the second over the time stay constant (B. D. H. Tellegen, A
+;;; general network theorem, 1952). See circuits-balance first.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_nodes" "circuits/elements"
+                "circuits/rates_by_branches" "circuits/rates_judge" "forms/agreement"
+                "forms/dynamics" "forms/fixed" "forms/judge" "forms/program_judge"
+                "forms/rates_integrals" "forms/value"))
+
+(defun circuits-balance (run states)
+  "Two values: the integral of RUN as forms-rates has it, and nil; or nil and why it is not given."
+  (let ((terms (circuits-stored-terms run)) (fault (circuits-balance-fault run states)))
+    (if fault
+        (values nil (format nil "energy: ~a" fault))
+        (list '$energy (algebra-program-sum terms) (forms-size-of terms)
+              (circuits-taken-power run)))))
+
+(defun circuits-stored-terms (run)
+  (flet ((half-square (value x)
+           (algebra-program-multiply (algebra-program-multiply 1/2 value)
+                                     (algebra-program-multiply x x))))
+    (append
+     (loop for branch across (circuits-run-branches run)
+           for k = (circuits-branch-number branch)
+           append (case (circuits-branch-type branch)
+                    (|$l| (list (half-square (circuits-value run branch)
+                                             (circuits-current run k))))
+                    (|$c| (list (half-square (circuits-value run branch)
+                                             (circuits-voltage run k))))))
+     (loop for coupling in (circuits-numbers run couplings)
+           collect (algebra-program-multiply
+                    (circuits-element run (circuits-coupling-mutual coupling))
+                    (algebra-program-multiply
+                     (circuits-current run (circuits-coupling-one coupling))
+                     (circuits-current run (circuits-coupling-other coupling))))))))
+
+(defun circuits-storing-p (branch) (member (circuits-branch-type branch) '(|$l| |$c|)))
+
+(defun circuits-balance-fault (run states)
+  (loop for branch across (circuits-run-branches run)
+        for label = (core-words (list (circuits-branch-label branch)))
+        do (if (circuits-storing-p branch)
+               (when (forms-depends-p (list (circuits-value run branch)) states)
+                 (return (format nil "what ~a stores is not L*i^2/2 or C*u^2/2" label)))
+               (unless (circuits-flow run branch)
+                 (return (format nil "the power of ~a depends on rates" label))))))
+
+;;; What a branch takes that stores nothing. Its current or voltage may still be unknown: of a source it
+;;; is a sum over its cut or loop.
+
+(defun circuits-flow (run branch)
+  "(voltage . current) of BRANCH in the direction of the states, nil where they are not known."
+  (let* ((k (circuits-branch-number branch))
+         (voltage (or (circuits-voltage run k)
+                      (and (circuits-row-known-p (circuits-loop-row run k) #'circuits-voltage run)
+                           (circuits-along-loop run k))))
+         (current (or (circuits-current run k)
+                      (and (circuits-row-known-p (circuits-cut-row run k) #'circuits-current run)
+                           (circuits-through-cut run k)))))
+    (and voltage current (cons voltage current))))
+
+(defun circuits-row-known-p (row quantity run)
+  (loop for (k) in row always (funcall quantity run k)))
+
+(defun circuits-taken-power (run)
+  (algebra-program-multiply
+   (circuits-run-sign run)
+   (algebra-program-sum
+    (loop for branch across (circuits-run-branches run)
+          unless (circuits-storing-p branch)
+            collect (destructuring-bind (voltage . current) (circuits-flow run branch)
+                      (algebra-program-multiply voltage current))))))
+
+;;; The check: for random rates the rate of what is stored, what M r - X leaves included, is what the
+;;; other branches feed.
+
+(defun circuits-check-balance (run mass right integral)
+  (destructuring-bind (value power) (list (second integral) (fourth integral))
+    (let ((point (forms-new-point t)))
+      (forms-verdict-of
+       "balance of energy at a random point"
+       (list (or (catch 'forms-no-value
+                   (let ((trial (circuits-new-trial run point mass right)))
+                     (cons (first (forms-slopes-along (list (circuits-value-function value)) point
+                                                      (circuits-direction trial)))
+                           (- (+ (first (forms-program-values (list power) point))
+                                 (circuits-left-power trial))))))
+                 '(nil)))
+       point))))
+
+(defun circuits-left-power (trial)
+  (loop for k in (circuits-own-branches (circuits-trial-run trial))
+        sum (forms-fixed-times (circuits-left-in trial k)
+                               (forms-variable-value
+                                (circuits-state-name (circuits-trial-run trial) k)
+                                (circuits-trial-point trial)))))

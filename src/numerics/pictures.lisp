@@ -1,0 +1,189 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Pictures by Maxima's share package draw and gnuplot: PNG or SVG in a file, on the screen, or in
+;;; the worksheet of wxMaxima. gnuplot writes into a file of a plain name in the folder for temporary
+;;; ones, which is then put under the name that was asked for, whatever letters that has. What draw
+;;; keeps from one drawing to the next is out of the way meanwhile. Look first at numerics-draw.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/new_files"))
+
+(defstruct numerics-picture
+  file   ; its name, nil for the screen
+  kind)  ; $png or $svg
+
+(defun numerics-kind-of-file (file)
+  (let* ((dot (position #\. file :from-end t)) (type (and dot (subseq file dot))))
+    (cond ((equalp type ".png") '$png)
+          ((equalp type ".svg") '$svg)
+          (t (core-error "a picture is a file .png or .svg, found ~a" file)))))
+
+(defun $numerics_picture (file replace)
+  "Where a picture goes; one that could not be written is refused before anything is computed."
+  (cond (file (let ((kind (numerics-kind-of-file file)))
+                (algebra-check-new-file file replace)
+                (algebra-check-writable file)
+                (make-numerics-picture :file file :kind kind)))
+        (replace (core-error "replace = true is for a file; give file = \"name.png\""))
+        (t (make-numerics-picture))))
+
+;;; Items of a drawing, Maxima expressions
+
+(defun numerics-option (name value) (list '(mequal simp) name value))
+
+(defun numerics-points (places)
+  "The object of draw for PLACES, lists of two numbers."
+  (list '($points simp) (cons '(mlist simp) (mapcar #'first places))
+        (cons '(mlist simp) (mapcar #'second places))))
+
+(defparameter *numerics-longest-text* 110 "Letters in a picture.")
+
+(defun numerics-doubled-quotes (text)
+  "TEXT as it stands between the quotes of gnuplot, cut where it would not fit."
+  (let ((cut (if (> (length text) *numerics-longest-text*)
+                 (concatenate 'string (subseq text 0 (- *numerics-longest-text* 3)) "...")
+                 text)))
+    (apply #'concatenate 'string
+           (loop for letter across cut
+                 when (char= letter #\') collect "'"
+                 when (char>= letter #\Space) collect (string letter)))))
+
+(defun numerics-gnuplot-text (text)
+  "TEXT in the quotes of gnuplot."
+  (format nil "'~a'" (numerics-doubled-quotes text)))
+
+(defun numerics-state-text (name)
+  "The state NAME as an axis says it, theta' for a velocity."
+  (if (and (consp name) (eq (caar name) '%derivative))
+      (format nil "~a'" (core-words (list (second name))))
+      (core-words (list name))))
+
+(defun numerics-preamble (horizontal vertical &rest more)
+  "Lines of gnuplot: the axes, the legend, and MORE of them."
+  (format nil "set xlabel ~a noenhanced~%set ylabel ~a noenhanced~%~
+               set key outside top center horizontal noenhanced~%~{~a~%~}"
+          (numerics-gnuplot-text horizontal) (numerics-gnuplot-text vertical) more))
+
+;;; draw
+
+(defun numerics-load-draw ()
+  (unless (fboundp '$draw)
+    (core-progress "loading draw")
+    (core-unhurried
+     (lambda ()
+       (let ((*standard-output* (make-broadcast-stream)) (*error-output* (make-broadcast-stream)))
+         (core-attempt (lambda () ($load "draw")))))))
+  (unless (fboundp '$draw)
+    (core-error "Maxima's package draw, which makes the pictures, cannot be loaded")))
+
+(defun numerics-with-own-draw (function)
+  "Calls FUNCTION while draw has none of the user's settings; it is as before afterwards."
+  (core-with-values '(*gr-options* *user-gr-default-options* *multiplot-is-active* *allocations*
+                      *draw-terminal-number* $draw_renderer $draw_use_pngcairo $gnuplot_command)
+                    (list (make-hash-table) nil nil nil "" '$gnuplot nil (numerics-gnuplot))
+                    function))
+
+(defun numerics-gnuplot ()
+  "The command; what it has to say is said here."
+  #+(or win32 windows) $gnuplot_command
+  #-(or win32 windows) (format nil "2>/dev/null ~a" $gnuplot_command))
+
+(defvar *numerics-drawings* 0 "Drawings of this session.")
+(defvar *numerics-drawing* nil "The name of the files of the one that is made.")
+
+(defun numerics-temporary (type) (concatenate 'string *numerics-drawing* type))
+
+(defun numerics-temporary-path (type)
+  (format nil "~a/~a" $maxima_tempdir (numerics-temporary type)))
+
+(defun numerics-filled-p (path)
+  (and (core-existing-file path)
+       (with-open-file (stream (core-pathname path)) (plusp (file-length stream)))))
+
+(defun numerics-run-draw (terminal size preamble items)
+  "Draws ITEMS after the lines PREAMBLE."
+  (numerics-with-own-draw
+   (lambda ()
+     (core-unhurried
+      (lambda ()
+        (let ((*standard-output* (make-broadcast-stream)))
+          (mfuncall '$draw
+                    (list '($gr2d)
+                          (list* '(mlist simp) (numerics-option '$user_preamble preamble) items))
+                    (numerics-option '$terminal terminal)
+                    (numerics-option '$dimensions (cons '(mlist simp) size))
+                    (numerics-option '$file_name (numerics-temporary-path ""))
+                    (numerics-option '$gnuplot_file_name (numerics-temporary ".gnuplot"))
+                    (numerics-option '$data_file_name (numerics-temporary ".data")))))))))
+
+(defun numerics-remove-temporary (types)
+  (dolist (type types) (algebra-remove-file (numerics-temporary-path type))))
+
+(defun numerics-draw-into-temporary (kind size preamble items)
+  "The path of the picture of KIND, which gnuplot made."
+  (let ((path (numerics-temporary-path (if (eq kind '$svg) ".svg" ".png"))))
+    (dolist (terminal (if (eq kind '$svg) '($svg) '($pngcairo $png)))
+      (numerics-run-draw terminal size preamble items)
+      (when (numerics-filled-p path) (return-from numerics-draw-into-temporary path)))
+    (core-error "gnuplot made no picture; is it installed, and `~a' its name? (gnuplot_command ~
+                 tells another)" $gnuplot_command)))
+
+(defun numerics-copy-bytes (from stream)
+  (with-open-file (source (core-pathname from) :element-type '(unsigned-byte 8))
+    (let ((block (make-array 65536 :element-type '(unsigned-byte 8))))
+      (loop for count = (read-sequence block source)
+            while (plusp count) do (write-sequence block stream :end count)))))
+
+;;; Where it goes
+
+(defparameter *numerics-picture-size* '(900 720))
+
+(defun numerics-draw-file (file kind size preamble items)
+  (let ((made (numerics-draw-into-temporary kind size preamble items)))
+    (algebra-write-file file (lambda (stream) (numerics-copy-bytes made stream))
+                        '(unsigned-byte 8))))
+
+(defun numerics-worksheet-p () (and (fboundp '$wxdraw2d) (boundp '$wxplot_size)))
+
+(defun numerics-draw-in-worksheet (preamble items)
+  "In wxMaxima, which takes the file and deletes it."
+  (let* ((kind (if (and (boundp '$wxplot_usesvg) (symbol-value '$wxplot_usesvg)) '$svg '$png))
+         (shown (numerics-temporary-path (if (eq kind '$svg) "_shown.svg" "_shown.png"))))
+    (numerics-draw-file shown kind (cdr (symbol-value '$wxplot_size)) preamble items)
+    (core-afterwards
+     (lambda () (mfuncall '$ldisp (list '(wxxmltag simp) shown "img" "del=\"yes\""))))))
+
+(defun numerics-screen-p ()
+  "Whether there may be a screen; gnuplot finds out whether there is."
+  #+(or win32 windows darwin) t
+  #-(or win32 windows darwin)
+  (some (lambda (name) (plusp (length (core-environment name))))
+        '("DISPLAY" "WAYLAND_DISPLAY" "GNUTERM")))
+
+(defun numerics-draw-on-screen (preamble items)
+  "gnuplot leaves the name of its terminal in a file once it has one."
+  (let ((mark (numerics-temporary-path ".shown")))
+    (when (numerics-screen-p)
+      (numerics-run-draw '$screen *numerics-picture-size*
+                         (format nil "~aset print ~a~%print GPVAL_TERM~%unset print~%" preamble
+                                 (numerics-gnuplot-text mark))
+                         items))
+    (unless (numerics-filled-p mark)
+      (core-warn "no picture is shown: gnuplot, by the name `~a' (gnuplot_command), needs a screen; ~
+                  give file = \"name.png\"" $gnuplot_command))))
+
+(defun numerics-draw (picture preamble items)
+  "The picture of ITEMS, options and objects of draw, after the lines PREAMBLE; the name of its
+file, or nil."
+  (let* ((file (numerics-picture-file picture))
+         (*numerics-drawing* (format nil "dynarch~d_~d" (core-process-id)
+                                     (incf *numerics-drawings*))))
+    (numerics-load-draw)
+    (unwind-protect
+         (cond (file (numerics-draw-file file (numerics-picture-kind picture)
+                                         *numerics-picture-size* preamble items))
+               ((numerics-worksheet-p) (numerics-draw-in-worksheet preamble items))
+               (t (numerics-draw-on-screen preamble items)))
+      (numerics-remove-temporary '(".gnuplot" ".data" ".png" ".svg" ".shown")))
+    file))

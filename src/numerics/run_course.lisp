@@ -1,0 +1,191 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; A run under way: its method, what looks on at each step, and how it ended. Look first at
+;;; numerics-carry-out.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "forms/rates" "numerics/back_to_constraints" "numerics/dead_points"
+                "numerics/decimals" "numerics/drifts" "numerics/events"
+                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
+                "numerics/problem"
+                "numerics/routine" "numerics/run" "numerics/run_options"
+                "numerics/switches"))
+
+;;; Methods
+
+(defparameter *numerics-methods*
+  '(($auto "numerics/automatic" numerics-automatic)
+    ($dop853 "numerics/dormand_prince" numerics-dopri)
+    ($radau "numerics/radau" numerics-radau)
+    ($gauss "numerics/gauss" numerics-gauss)
+    ($dlsode "numerics/dlsode" numerics-dlsode))
+  "Each row: the word for a method, its part and its function.")
+
+(defparameter *numerics-implicit-methods* '($auto $radau $dlsode) "Those that take a jacobian.")
+
+(defun numerics-method (run)
+  (destructuring-bind (part function)
+      (cdr (assoc (numerics-wishes-method (numerics-simulation-wishes run)) *numerics-methods*))
+    (core-require part)
+    function))
+
+(defun numerics-prepare-method (run)
+  "The function of the method, with what it needs of the problem."
+  (let ((problem (numerics-simulation-problem run))
+        (method (numerics-wishes-method (numerics-simulation-wishes run))))
+    (when (eq method '$dop853)
+      (setf (numerics-controls-looks-for (numerics-simulation-controls run)) :much-stiffness))
+    (cond ((and (eq method '$dlsode) (numerics-simulation-constraints run))
+           (core-error "the steps of dlsode build on each other, and constraints change the state ~
+                        after each; take method = auto"))
+          ((member method *numerics-implicit-methods*)
+           (numerics-add-jacobian problem)
+           (numerics-warn-of-start run))
+          ((numerics-problem-mass problem)
+           (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is not ~
+                        divided out; take method = radau" (core-spelling method))))
+    (numerics-method run)))
+
+(defun numerics-warn-of-start (run)
+  "A warning where a derivative of a rate has no finite value at the start, as that of sqrt(x) at 0:
+more than one solution may begin there."
+  (let* ((problem (numerics-simulation-problem run)) (pattern (numerics-problem-pattern problem))
+         (values (numerics-zeros (length (numerics-pattern-rows pattern)))))
+    (numerics-with-masked-traps
+      (funcall (the function (numerics-problem-jacobian problem))
+               (numerics-simulation-moment run) (numerics-simulation-state run) values)
+      (let ((place (position-if-not #'numerics-finite-p values)))
+        (when place
+          (core-warn "at the start the rate of ~a has no finite derivative; more than one solution ~
+                      may begin there"
+                     (numerics-name-text (nth (aref (numerics-pattern-rows pattern) place)
+                                              (numerics-problem-names problem)))))))))
+
+;;; What looks on
+
+(defun numerics-guard-part (run)
+  "A part of an observer that stops where a pivot is lost."
+  (lambda (step)
+    (let ((lost (numerics-lost-pivot run (numerics-step-to step) (numerics-step-after step))))
+      (when lost
+        (setf (numerics-simulation-lost run) lost)
+        :stop))))
+
+(defun numerics-run-dead-point-part (run)
+  (numerics-dead-point-part
+   (numerics-new-dead-points (numerics-simulation-constraints run)
+                             (numerics-controls-relative (numerics-simulation-controls run))
+                             (numerics-simulation-moment run) (numerics-simulation-state run))
+   (lambda (time)
+     (setf (numerics-simulation-fault run)
+           (format nil "the constraints depend on each other at about t = ~a: the motion beyond is ~
+                        not determined" (numerics-short-number time))))))
+
+(defun numerics-run-pole-part (run)
+  "A part of an observer that stops before a pole, or nil."
+  (let* ((rates (numerics-simulation-rates run))
+         (poles (numerics-new-poles
+                 (numerics-simulation-program run) (mapcar #'second (forms-rates-guards rates))
+                 (numerics-problem-rates (numerics-simulation-problem run))
+                 (numerics-controls-scales (numerics-simulation-controls run)))))
+    (when poles
+      (numerics-pole-part
+       poles (lambda (words time)
+               (setf (numerics-simulation-fault run)
+                     (format nil "the right-hand side divides by zero at about t = ~a~@[: ~a ~
+                                  vanishes~]" (numerics-short-number time) words)))))))
+
+(defparameter *numerics-cutting-methods* '($auto $dop853 $radau) "Those that inspect a step.")
+
+(defun numerics-run-switch-part (run)
+  "Where the right-hand side of RUN has jumps or corners, a method that can looks at each of its steps;
+for others a part of an observer, or nil."
+  (let* ((controls (numerics-simulation-controls run)) (wishes (numerics-simulation-wishes run))
+         (switches (numerics-new-switches
+                    (numerics-simulation-program run)
+                    (numerics-problem-rates (numerics-simulation-problem run)) controls)))
+    (cond ((null switches) nil)
+          ((member (numerics-wishes-method wishes) *numerics-cutting-methods*)
+           (setf (numerics-controls-inspect controls)
+                 (lambda (step) (numerics-inspect-switches switches step)))
+           nil)
+          (t (numerics-switch-part
+              switches
+              (lambda (words)
+                (setf (numerics-simulation-fault run)
+                      (format nil "the next step would go over a jump or corner of the right-hand ~
+                                   side, where ~a = 0; take method = auto" words))))))))
+
+(defun numerics-run-observer (run)
+  (numerics-observer
+   (remove nil
+           (list (and (numerics-simulation-constraints run)
+                      (numerics-projection-part (numerics-simulation-constraints run)))
+                 (and (numerics-simulation-constraints run) (numerics-run-dead-point-part run))
+                 (and (numerics-simulation-guards run) (numerics-guard-part run))
+                 (numerics-run-pole-part run)
+                 (numerics-run-switch-part run)
+                 (and (numerics-simulation-events run)
+                      (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
+                 (and (numerics-simulation-drifts run)
+                      (lambda (step) (numerics-see-drifts (numerics-simulation-drifts run) step)))
+                 (lambda (step) (numerics-see-rows (numerics-simulation-rows run) step))
+                 (numerics-progress-part (numerics-simulation-controls run))))))
+
+(defparameter *numerics-share-of-time* 9/10
+  "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
+
+(defun numerics-carry-out (run)
+  "Makes the RUN; the sentence of the stop where its time was up or the person interrupted it."
+  (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
+         (began (numerics-seconds)) (compiled *numerics-compile-seconds*) (outcome nil))
+    (setf (numerics-simulation-began run) (numerics-working-seconds))
+    (multiple-value-bind (value stop)
+        (core-within *numerics-share-of-time*
+                     (lambda ()
+                       (numerics-interruptible
+                         (numerics-with-masked-traps
+                           (setq outcome (funcall method (numerics-simulation-problem run)
+                                                  (numerics-simulation-controls run)
+                                                  (copy-seq (numerics-simulation-moment run))
+                                                  (copy-seq (numerics-simulation-state run))
+                                                  observer))))))
+      (when (eq value :interrupted)
+        (setq stop (format nil "interrupted~@[ at ~a~]" *core-doing*)))
+      (let ((compilation (- *numerics-compile-seconds* compiled)))
+        (setf (numerics-simulation-seconds run) (- (numerics-seconds) began compilation)
+              (numerics-simulation-compiled-on-the-way run) compilation
+              (numerics-simulation-outcome run) outcome))
+      (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))
+      stop)))
+
+;;; How it ended
+
+(defun numerics-trouble (run)
+  "Why the RUN did not come to its end, a phrase; nil where it did."
+  (let ((outcome (numerics-simulation-outcome run)))
+    (cond ((and (numerics-simulation-constraints run)
+                (numerics-constraints-singular (numerics-simulation-constraints run)))
+           "the constraints depend on each other there")
+          ((numerics-simulation-fault run))
+          ((or (numerics-simulation-lost run)
+               (not (member (numerics-outcome-status outcome) '(:end :stopped))))
+           (numerics-trouble-of-steps run outcome)))))
+
+(defun numerics-trouble-of-steps (run outcome)
+  (if (numerics-simulation-lost run)
+      (format nil "the mass matrix becomes singular: ~a"
+              (numerics-lost-words (numerics-simulation-lost run)))
+      (format nil (ecase (numerics-outcome-status outcome)
+                    (:not-finite "the right-hand side has no finite value there")
+                    (:smallest-step "the step became as small as the last place of t: the solution ~
+                                     or its right-hand side is singular there")
+                    (:no-convergence "the equations of the implicit steps could not be solved")
+                    (:inconsistent "the algebraic equations do not hold there")
+                    (:most-steps "the most steps that were allowed are made")
+                    (:too-slow "the steps became too short")
+                    (:singular "the matrix of the implicit steps is singular")
+                    (:stiff "the motion is stiff there, and an explicit method would need more than a ~
+                             million steps; take method = radau, or auto")
+                    (:sliding "no solution in the ordinary sense goes on there")))))

@@ -1,0 +1,108 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; What a run says of itself beside its rows: how it ended, what it cost, how far its integrals drift
+;;; and its constraints are off; and the warning where a drift is out of proportion. See
+;;; numerics-report first.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/decimals"
+                "numerics/drifts" "numerics/events" "numerics/problem" "numerics/run"
+                "numerics/run_options"))
+
+(defun numerics-rounded-seconds (seconds)
+  "SECONDS to the microsecond."
+  (numerics-rounded (/ (round (* 1000000 (rational (max 0d0 seconds)))) 1000000)))
+
+(defun numerics-status-words (run stop trouble)
+  "How RUN ended: the sentence STOP where it was stopped, the phrase TROUBLE where it failed."
+  (cond (stop)
+        (trouble)
+        ((eq (numerics-outcome-status (numerics-simulation-outcome run)) :stopped)
+         "stopped by an event")
+        (t "reached the end")))
+
+(defun numerics-report (run course asked)
+  "What stands beside the rows, as a Maxima list, first the fields COURSE; ASKED: fields that were
+asked for."
+  (cons '(mlist simp)
+        (append course
+                (numerics-seconds-fields run)
+                (numerics-drift-fields run)
+                asked
+                (numerics-remark-fields run))))
+
+(defun numerics-course-fields (run status)
+  (let* ((controls (numerics-simulation-controls run)) (counts (numerics-controls-counts controls)))
+    (list (algebra-field '$method (numerics-wishes-method (numerics-simulation-wishes run)))
+          (algebra-field '$tolerance (numerics-controls-relative controls))
+          (algebra-field '$status status)
+          (algebra-field '$steps (numerics-counts-steps counts))
+          (algebra-field '$rejected (+ (numerics-counts-rejected counts)
+                                       (numerics-counts-not-finite counts)))
+          (algebra-field '$rates (numerics-counts-rates counts))
+          (algebra-field '$jacobians (numerics-counts-jacobians counts))
+          (algebra-field '$factorisations (numerics-counts-factorisations counts)))))
+
+(defun numerics-seconds-fields (run)
+  (flet ((seconds (key value) (algebra-field key (numerics-rounded-seconds value))))
+    (list (seconds '$seconds (numerics-simulation-seconds run))
+          (seconds '$derivation_seconds (numerics-simulation-derivation-seconds run))
+          (seconds '$compile_seconds (numerics-simulation-compile-seconds run)))))
+
+(defun numerics-named-drifts (run)
+  "((name . relative drift) ..)"
+  (let ((drifts (numerics-simulation-drifts run)))
+    (mapcar #'cons (numerics-simulation-drifting run)
+            (if (listp drifts) drifts (numerics-relative-drifts drifts)))))
+
+(defun numerics-drift-fields (run)
+  (append
+   (list (algebra-field '$drifts
+                        (cons '(mlist simp)
+                               (loop for (name . drift) in (numerics-named-drifts run)
+                                     collect (algebra-field name (numerics-few-digits drift))))))
+   (when (numerics-simulation-untold run)
+     (list (algebra-field '$untold (cons '(mlist simp) (numerics-simulation-untold run)))))
+   (when (numerics-simulation-constraints run)
+     (list (algebra-field '$residual (numerics-few-digits
+                                      (numerics-constraints-largest
+                                       (numerics-simulation-constraints run))))))))
+
+(defun numerics-remark-fields (run)
+  (let ((outcome (numerics-simulation-outcome run)))
+    (append (numerics-event-fields run)
+            (when (and outcome (numerics-outcome-about outcome))
+              (list (algebra-field '$about (numerics-outcome-about outcome)))))))
+
+(defun numerics-event-fields (run)
+  "events = [[t, number of the event, 1 upwards, -1 downwards, 0 where it touches 0], ..]"
+  (let ((events (numerics-simulation-events run)))
+    (when events
+      (list (algebra-field
+             '$events
+             (cons '(mlist simp)
+                    (loop for event in (reverse (numerics-events-found events))
+                          collect (algebra-list (aref (numerics-event-moment event) 0)
+                                                (1+ (numerics-event-place event))
+                                                (numerics-event-direction event)))))))))
+
+;;; A drift that is out of proportion
+
+(defun numerics-accuracy (run)
+  "The relative tolerance of RUN, or what its digits stand for."
+  (let ((digits (numerics-wishes-digits (numerics-simulation-wishes run))))
+    (if (plusp digits)
+        (numerics-rounded (expt 10 (- digits)))
+        (numerics-controls-relative (numerics-simulation-controls run)))))
+
+(defparameter *numerics-worrying-drift* 1000 "So many times the tolerance a drift is worth a line.")
+
+(defun numerics-warn-of-drifts (run)
+  (let ((relative (numerics-accuracy run)))
+    (loop for (name . drift) in (numerics-named-drifts run)
+          do (when (> drift (* *numerics-worrying-drift* relative))
+               (core-warn-later
+                "~a, which is constant, drifts by ~a of its size, at a tolerance of ~a"
+                (numerics-name-text name) (numerics-short-number drift)
+                (numerics-short-number relative))))))

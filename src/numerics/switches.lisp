@@ -1,0 +1,199 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Jumps and corners of a right-hand side X: where the argument of a sign or of an absolute value
+;;; vanishes. The error of a step that goes over one is not what its estimate says: a short pulse may
+;;; lie between all stages. So where an argument vanishes within a step, what the step adds to the
+;;; state is compared with the integral of X along it, from zero to zero; where they differ by more
+;;; than the tolerance, the step is cut to end shortly before the first zero, and one so short that
+;;; nothing in it counts leads to the other side. A motion that comes back again and again has no
+;;; solution in the ordinary sense. See numerics-inspect-switches first.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
+                "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
+                "numerics/problem" "numerics/program" "numerics/routine"))
+
+(defun numerics-switch-elements (elements)
+  "The arguments of signs and absolute values in ELEMENTS, and the ordinates of angles."
+  (let ((found '()))
+    (dolist (node (algebra-live-nodes elements) (nreverse found))
+      (when (member (algebra-node-operation node) '(:sign :absolute :polar-angle))
+        (let ((argument (algebra-node-left node)))
+          (unless (or (not (algebra-node-p argument))
+                      (member (algebra-node-operation argument) '(:sign :absolute)))
+            (pushnew argument found)))))))
+
+(defstruct numerics-switches
+  elements events rates
+  scales relative                                     ; those of the controls
+  nodes weights                                       ; of a quadrature
+  (passed '())                                        ; times of steps over a zero, the last first
+  (moment (numerics-zeros 2) :type numerics-vector)
+  (state (numerics-zeros 0) :type numerics-vector)
+  (slope (numerics-zeros 0) :type numerics-vector)
+  (sum (numerics-zeros 0) :type numerics-vector))
+
+(defparameter *numerics-quadrature-nodes* 5)
+
+(defun numerics-new-switches (program rates controls)
+  "What looks for jumps and corners of the RATES of PROGRAM; nil where there are none."
+  (with-numerics-program program
+    (let ((elements (numerics-switch-elements (numerics-program-rates program)))
+          (n (length (numerics-program-names program))))
+      (when elements
+        (let ((nodes (numerics-gauss-nodes *numerics-quadrature-nodes* 60))
+              (none (mapcar (constantly nil) elements)))
+          (make-numerics-switches
+           :elements elements :rates rates
+           :events (numerics-new-events (numerics-routine program elements) n
+                                        (mapcar (constantly 0) elements) none nil)
+           :scales (numerics-controls-scales controls)
+           :relative (numerics-controls-relative controls)
+           :nodes (mapcar #'numerics-rounded nodes)
+           :weights (mapcar #'numerics-rounded (numerics-gauss-weights nodes))
+           :state (numerics-zeros n) :slope (numerics-zeros n) :sum (numerics-zeros n)))))))
+
+;;; What a step misses
+
+(defun numerics-switch-zeros (switches step)
+  "Where arguments vanish within STEP, (share place) in order."
+  (let* ((events (numerics-switches-events switches))
+         (zeros (progn (numerics-sample-events events step)
+                       (numerics-begin-events events step)
+                       (loop for (share place) in (numerics-wanted-zeros events step)
+                             unless (= share 0d0) collect (list share place)))))
+    (sort (append zeros (loop for (share) in zeros
+                              append (numerics-zeros-about events step share)))
+          #'< :key #'first)))
+
+(defun numerics-zeros-about (events step share)
+  "Zeros on both sides of SHARE, where one argument vanishes, of others whose sign there is neither
+that of the sample before nor of the one after: one may be a function of the absolute value of another."
+  (let* ((k (min 15 (floor (* 16 share)))) (values (copy-seq (numerics-events-at events step share))))
+    (loop for place below (numerics-events-count events)
+          for side = (numerics-side (aref values place))
+          for before = (numerics-side (numerics-sample events place k))
+          when (and (/= side 0) (= before (- side))
+                    (= before (numerics-side (numerics-sample events place (1+ k)))))
+            append (list (list (numerics-crossing events step place (/ k 16d0) share) place)
+                         (list (numerics-crossing events step place share (/ (1+ k) 16d0)) place)))))
+
+(defun numerics-step-state (switches step share)
+  (let ((state (numerics-switches-state switches)))
+    (cond ((= share 0d0) (replace state (numerics-step-before step)))
+          ((= share 1d0) (replace state (numerics-step-after step)))
+          (t (funcall (the function (numerics-step-interpolate step)) share state)))))
+
+(defun numerics-step-length (step)
+  (let ((from (numerics-step-from step)) (to (numerics-step-to step)))
+    (+ (- (aref to 0) (aref from 0)) (- (aref to 1) (aref from 1)))))
+
+(defun numerics-missed (switches step from to)
+  "What STEP adds between two shares, less the integral of X there, over the tolerance."
+  (let ((sum (numerics-switches-sum switches)) (slope (numerics-switches-slope switches))
+        (moment (numerics-switches-moment switches)) (length (* (- to from) (numerics-step-length step))))
+    (replace sum (numerics-step-state switches step from))
+    (loop for node in (numerics-switches-nodes switches)
+          for weight in (numerics-switches-weights switches)
+          for share = (+ from (* node (- to from)))
+          do (numerics-step-moment step share moment)
+             (funcall (the function (numerics-switches-rates switches)) moment
+                      (numerics-step-state switches step share) slope)
+             (map-into sum (lambda (s x) (+ s (* weight length x))) sum slope))
+    (loop for s across sum
+          for x across (numerics-step-state switches step to)
+          for scale across (numerics-switches-scales switches)
+          maximize (/ (abs (- x s)) (+ (abs x) scale) (numerics-switches-relative switches)))))
+
+(defun numerics-missed-in-all (switches step zeros)
+  (loop for (from to) on (append '(0d0) (mapcar #'first zeros) '(1d0))
+        while to
+        when (< from to) sum (numerics-missed switches step from to)))
+
+;;; Where it is cut
+
+(defparameter *numerics-most-missed* 2d0 "Of the tolerance, in a step over a jump or a corner.")
+
+(defun numerics-inspect-switches (switches step)
+  "nil where STEP may stand; else the share of it that may, and whether that goes over a zero; or a
+sentence where no solution goes on."
+  (let ((zeros (numerics-switch-zeros switches step)))
+    (when zeros
+      (let ((missed (numerics-missed-in-all switches step zeros)))
+        (when (> missed *numerics-most-missed*)
+          (numerics-cut-share switches step (first zeros) (/ 0.1d0 missed)))))))
+
+(defun numerics-cut-share (switches step zero short)
+  "To half of SHORT before the ZERO, or over it by a step so short that what it misses is no matter."
+  (destructuring-bind (share place) zero
+    (cond ((numerics-turned-back switches step share place))
+          ((> share short) (values (- share (* 0.5d0 short)) nil))
+          ((numerics-to-and-fro switches step place short))
+          ((> (+ share short) 0.9d0) nil)
+          (t (values (+ share short) t)))))
+
+;;; Where no solution goes on
+
+(defun numerics-switch-words (switches place)
+  (or (numerics-element-words (nth place (numerics-switches-elements switches)))
+      "the argument of a sign"))
+
+(defun numerics-turned-back (switches step share place)
+  "A sentence where X points back to the zero at SHARE on its other side: from shortly before it, a
+little more than the way there along X is made, and the next bit along X there."
+  (let* ((moment (copy-seq (numerics-switches-moment switches))) (small 1d-7)
+         (from (max 0d0 (- share small)))
+         (state (copy-seq (numerics-step-state switches step from)))
+         (short (* small (numerics-step-length step))))
+    (numerics-step-moment step from moment)
+    (let* ((before (numerics-argument-at switches place moment state))
+           (beyond (progn (numerics-go-on switches moment state (* 2 short))
+                          (numerics-argument-at switches place moment state)))
+           (after (progn (numerics-go-on switches moment state short)
+                         (numerics-argument-at switches place moment state))))
+      (when (and (= (numerics-side beyond) (- (numerics-side before)))
+                 (< (* (- after beyond) (numerics-side (- beyond before)))
+                    (* -1d-3 (abs (- beyond before)))))
+        (format nil "on both sides of ~a = 0 it leads back to it"
+                (numerics-switch-words switches place))))))
+
+(defun numerics-argument-at (switches place moment state)
+  (let ((values (numerics-events-values (numerics-switches-events switches))))
+    (funcall (the function (numerics-events-functions (numerics-switches-events switches)))
+             moment state values)
+    (aref values place)))
+
+(defun numerics-go-on (switches moment state length)
+  "MOMENT and STATE move by LENGTH along X."
+  (let ((slope (numerics-switches-slope switches)))
+    (funcall (the function (numerics-switches-rates switches)) moment state slope)
+    (map-into state (lambda (x s) (+ x (* length s))) state slope)
+    (numerics-advance moment length)))
+
+(defparameter *numerics-most-switches* 100)
+
+(defun numerics-to-and-fro (switches step place short)
+  "Notes a step over a zero; a sentence where the last hundred were not far apart."
+  (let* ((time (aref (numerics-step-from step) 0)) (passed (numerics-switches-passed switches))
+         (before (nth (1- *numerics-most-switches*) passed)))
+    (unless (eql time (first passed))
+      (setf (numerics-switches-passed switches)
+            (cons time (if before (subseq passed 0 (1- *numerics-most-switches*)) passed))))
+    (when (and before (< (abs (- time before))
+                         (* 10 *numerics-most-switches* short (abs (numerics-step-length step)))))
+      (format nil "~a changes its sign to and fro" (numerics-switch-words switches place)))))
+
+;;; Methods that cannot cut their steps
+
+(defparameter *numerics-worst-missed* 100d0 "Of the tolerance, in a step that stands.")
+
+(defun numerics-switch-part (switches found)
+  "A part of an observer that calls FOUND with words for what vanishes in a step which misses far more
+than the tolerance, and ends the run before that."
+  (lambda (step)
+    (let ((zeros (numerics-switch-zeros switches step)))
+      (when (and zeros (> (numerics-missed-in-all switches step zeros) *numerics-worst-missed*))
+        (funcall found (numerics-switch-words switches (second (first zeros))))
+        (numerics-undo-step step)
+        :stop))))

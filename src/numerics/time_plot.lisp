@@ -1,0 +1,89 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Curves of states and of expressions in them against time, drawn from the rows of a run. What is
+;;; to be drawn is read before the run. Look first at $numerics_time_plot.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions"
+                "algebra/program_nodes" "forms/rates" "numerics/native" "numerics/pictures"
+                "numerics/problem" "numerics/program" "numerics/rate_program" "numerics/routine"
+                "numerics/run" "numerics/run_options"))
+
+(defstruct numerics-curves
+  labels     ; texts
+  routine)   ; (moment state out): the values
+
+(defun numerics-read-plot (plot)
+  "The expressions of the option PLOT, one or a list of them."
+  (let ((expressions (or (numerics-items plot) (list plot))))
+    (when (or (find t expressions) (find nil expressions)
+              (some (lambda (e) (and (consp e) (member (caar e) '(mequal mlist)))) expressions))
+      (core-error "plot is a list of states or of expressions in them, such as [x, x^2 + y^2]; ~
+                   found ~a" (core-words (list plot))))
+    expressions))
+
+(defun $numerics_curves (plot rates values start)
+  "What the option PLOT wants of the rows of RATES with VALUES."
+  (with-algebra-program
+    (let* ((expressions (numerics-read-plot plot))
+           (pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+           (rates (numerics-with-quadratures (numerics-exchanged-rates rates pairs) start))
+           (elements (algebra-exchanged (mapcar #'algebra-program-element expressions)
+                                        (algebra-exchange-by pairs))))
+      (numerics-check-names rates elements)
+      (make-numerics-curves
+       :labels (mapcar #'numerics-state-text expressions)
+       :routine (numerics-routine (make-numerics-program :algebra *algebra-program*
+                                                         :names (forms-rates-states rates))
+                                  elements)))))
+
+(defun numerics-curve-places (curves rows)
+  "A list of places (t value) for each of CURVES; what has no value is left out."
+  (let* ((count (length (numerics-curves-labels curves))) (out (numerics-zeros count))
+         (places (make-array count :initial-element '())))
+    (dolist (row rows (map 'list #'reverse places))
+      (destructuring-bind (time . state) (mapcar (lambda (x) (numerics-double x "a row"))
+                                                 (numerics-items row))
+        (numerics-with-masked-traps
+          (funcall (numerics-curves-routine curves) (numerics-moment time)
+                   (coerce state 'numerics-vector) out))
+        (dotimes (k count)
+          (when (numerics-finite-p (aref out k))
+            (push (list time (aref out k)) (aref places k))))))))
+
+(defparameter *numerics-colours*
+  '("#4477aa" "#cc3311" "#228833" "#aa3377" "#ee7733" "#009988" "#bbaa00" "#555555"))
+
+(defun numerics-value-range (places)
+  "The option of draw that shows all of PLACES, with a margin; none where they are too large."
+  (when places
+    (let* ((low (reduce #'min places :key #'second)) (high (reduce #'max places :key #'second))
+           (margin (* 0.04d0 (- (/ high 2) (/ low 2)))))
+      (when (and (plusp margin) (< (max (abs low) (abs high)) 1d300))
+        (list (numerics-option '$yrange (list '(mlist simp) (- low (* 2 margin))
+                                              (+ high (* 2 margin)))))))))
+
+(defun numerics-time-items (labels curves)
+  "CURVES, lists of places, each under its of LABELS."
+  (loop for places in curves
+        for label in labels
+        for k from 0
+        when places
+          append (list (numerics-option '$color (nth (mod k (length *numerics-colours*))
+                                                     *numerics-colours*))
+                       (numerics-option '$key (numerics-doubled-quotes (core-cut label)))
+                       (numerics-points places))))
+
+(defun $numerics_time_plot (picture curves rows)
+  "Draws CURVES from ROWS, and gives these."
+  (let ((labels (numerics-curves-labels curves))
+        (places (numerics-curve-places curves (numerics-items rows))))
+    (numerics-draw picture
+                   (numerics-preamble "t" (if (cdr labels) "" (first labels)))
+                   (append (list (numerics-option '$points_joined t)
+                                 (numerics-option '$point_size 0)
+                                 (numerics-option '$line_width 1.5d0))
+                           (numerics-value-range (apply #'append places))
+                           (numerics-time-items labels places)))
+    rows))
