@@ -5,9 +5,9 @@
 ;;;     export SCENE FILE                       the rates in C
 ;;;     operations SCENE                        of the rates
 ;;; METHOD is one of Simulate; made-METHOD makes the program in the time, too, whole-METHOD does all
-;;; that Simulate does, nothing kept from the call before; drift-METHOD gives the largest drift of the energy of the double pendulum
-;;; in the place of the state; `rates' and `made' evaluate and make the program alone. Seconds are
-;;; those of this process. Answers begin with the word bench.
+;;; that Simulate does, nothing kept from the call before; drift-METHOD gives the largest drift of
+;;; the energy of the double pendulum in the place of the state; `rates' and `made' evaluate and make
+;;; the program alone. Seconds are those of this process. Answers begin with the word bench.
 
 (in-package :maxima)
 
@@ -42,7 +42,8 @@
 
 (defun bench-open (name size)
   (destructuring-bind (system start span)
-      (cdr (mfuncall '$bench_scene name (if (find #\. size) (bench-number size) (parse-integer size))))
+      (cdr (mfuncall '$bench_scene name
+                     (if (find #\. size) (bench-number size) (parse-integer size))))
     (let* ((record (mfuncall '$bench_program_of system))
            (scene (make-bench-scene :system system :record record :start start :span span
                                     :names (algebra-record-part record '$states))))
@@ -62,13 +63,17 @@
 (defparameter *bench-methods*
   '(("dop853" . numerics-dopri) ("radau" . numerics-radau) ("gauss" . numerics-gauss)))
 
-(defun bench-moment (scene) (numerics-moment (aref (bench-doubles (cdr (bench-scene-span scene))) 0)))
+(defun bench-time (scene place)
+  "The begin of its span, place 0, or the end, 1."
+  (aref (bench-doubles (cdr (bench-scene-span scene))) place))
+
+(defun bench-moment (scene) (numerics-moment (bench-time scene 0)))
 
 (defun bench-method-run (scene problem method tolerance scale &optional (observer (constantly nil)))
   "The outcome and the counts."
   (let* ((start (bench-doubles (bench-scene-start scene)))
          (controls (make-numerics-controls
-                    :end (aref (bench-doubles (cdr (bench-scene-span scene))) 1)
+                    :end (bench-time scene 1)
                     :relative tolerance :scales (map 'numerics-vector (constantly scale) start))))
     (values (numerics-with-masked-traps
               (funcall (cdr (assoc method *bench-methods* :test #'string=)) problem controls
@@ -80,15 +85,17 @@
   (and (> (length word) (length prefix)) (string= prefix word :end2 (length prefix))
        (subseq word (length prefix))))
 
+(defun bench-whole (scene method tolerance)
+  (setq *archive-kept* '())
+  (cons 0 (cddar (last (mfuncall '$bench_whole (bench-scene-system scene) (bench-scene-names scene)
+                                 (bench-scene-start scene) (bench-scene-span scene) method
+                                 tolerance)))))
+
 (defun bench-run (scene method tolerance scale)
   "Evaluations and the state at the end; nil where the run does not come there."
   (let ((whole (bench-prefix "whole-" method)) (made (bench-prefix "made-" method)))
-    (when whole (setq *archive-kept* '()))
     (if whole
-        (cons 0 (cddar (last (mfuncall '$bench_whole (bench-scene-system scene)
-                                       (bench-scene-names scene) (bench-scene-start scene)
-                                       (bench-scene-span scene) (intern (string-upcase (format nil "$~a" whole)) :maxima)
-                                       tolerance))))
+        (bench-whole scene (intern (string-upcase (format nil "$~a" whole)) :maxima) tolerance)
         (multiple-value-bind (outcome counts)
             (bench-method-run scene (if made
                                         (bench-problem scene (string= made "radau"))
