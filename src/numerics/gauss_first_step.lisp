@@ -70,7 +70,7 @@ made."
       (let ((order (* 2 (numerics-gauss-run-stages whole))) (error (numerics-pilot-error pilot))
             (allowed (numerics-controls-relative (numerics-pilot-controls pilot))))
         (if (> error 0d0)
-            (max 0.125d0 (min 4d0 (* 0.9d0 (expt (/ allowed error) (/ 1d0 (1+ order))))))
+            (max 0.125d0 (min 4d0 (* 0.85d0 (expt (/ allowed error) (/ 1d0 (1+ order))))))
             4d0)))))
 
 (defun numerics-pilot-made (run pilot moment state step)
