@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # tools/demo and tools/test need no make; these are their short names, and what is not run each time.
 
-.PHONY: demo test bench bench-peers fuzz test-maxima doc dist
+.PHONY: demo test bench bench-peers bench-numerics fuzz test-maxima doc dist
 
 demo:
 	@tools/demo
@@ -16,6 +16,10 @@ bench:
 # Chains by SymPy, symengine, CasADi (by pip into the user's cache) and by us, side by side. Under ten minutes.
 bench-peers:
 	@bench/peers/run
+
+# Runs by us and by SciPy, heyoka, SUNDIALS, Pinocchio and gcc (into the user's cache), side by side. Under ten minutes.
+bench-numerics:
+	@bench/numerics/run
 
 # The adversaries: random cases that try to refute what is claimed, of which the tests run a few.
 fuzz:

@@ -154,6 +154,26 @@ at its end."
 
 ;;; Coefficients.
 
+(defun $test_gauss_foresight (stages)
+  "The largest errors of foresight from two steps, made rational again: of t^k, k up to 2s - 3, and of
+the pattern that the errors of stages make, constant and linear in time."
+  (let* ((nodes (numerics-gauss-nodes stages 160)) (weights (numerics-gauss-weights nodes))
+         (errors (numerics-stage-errors nodes)) (rows (numerics-gauss-memory-of-two nodes weights)))
+    (flet ((worst (old last next)
+             (loop for row in rows
+                   for weight in weights
+                   for exact in next
+                   maximize (abs (- (* weight exact)
+                                    (reduce #'+ (mapcar #'* row (append weights weights)
+                                                        (append old last)))))))
+           (power (k begin) (mapcar (lambda (c) (expt (+ c begin) k)) nodes))
+           (times (factor) (mapcar (lambda (e) (* factor e)) errors)))
+      (gauss-list
+       (mapcar #'gauss-rational
+               (list (loop for k from 0 to (- (* 2 stages) 3)
+                           maximize (worst (power k -1) (power k 0) (power k 1)))
+                     (worst errors errors errors) (worst (times -1) (times 0) errors)))))))
+
 (defun gauss-rational (x) (if (integerp x) x (list '(rat simp) (numerator x) (denominator x))))
 
 (defun $test_gauss_tableau (stages bits)

@@ -444,3 +444,23 @@ three times: what another thread takes is not theirs."
                    (mapcar (lambda (x) (or (algebra-rational-number x) x)) (cdr point))))))
 
 (defun $test_compiles () #+sbcl t #-sbcl nil)
+
+;;; Long programs that repeat themselves.
+
+(defun $test_repetition (record)
+  "[whether shared code gives what the machine does, to the bit, the quotient of different parts and
+of all]"
+  (let* ((*numerics-long-program* 100) (states (cdr (algebra-record-part record '$states)))
+         (program (numerics-read-program record states)) (elements (numerics-program-rates program))
+         (state (test-random-numbers (length states)))
+         (plan (numerics-new-plan program (loop for e in elements
+                                                for k from 0 collect (cons k e))
+                                  (length elements)))
+         (texts (multiple-value-bind (code parts)
+                    (multiple-value-call #'numerics-new-code (numerics-rows-apart plan))
+                  (loop for part in parts
+                        collect (numerics-form-text
+                                 (numerics-shared-form (numerics-part-statements code part)))))))
+    (test-list (equalp (test-values program elements state :compiled)
+                       (test-values program elements state :machine))
+               (/ (length (remove-duplicates texts :test #'string=)) (length texts) 1d0))))

@@ -4,14 +4,15 @@
 ;;; time for one long function. A value that is used once stands where it is used, others are bound
 ;;; by `let'; the work vector w holds what another part needs, the arguments and values of
 ;;; elementary functions, and the time at 0. Rows of a product become code, too, where they are few:
-;;; long ones run faster as a product, and are made in no time. See numerics-compiled first.
+;;; long ones run faster as a product, and are made in no time. In long programs parts that are alike
+;;; share their code. See numerics-compiled first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"
                 "numerics/linear_rows" "numerics/native"
-                "numerics/plan" "numerics/problem" "numerics/routine_entry"))
+                "numerics/plan" "numerics/problem" "numerics/repetition" "numerics/routine_entry"))
 
 (defparameter *numerics-part-length* 250
   "Operations in one function: more are spilled, fewer are stored for other functions.")
@@ -70,8 +71,18 @@ that the second stage needs, those of its COPIES too."
 (defun numerics-weight (statement)
   (if (algebra-node-p statement) 1 (max 1 (length (numerics-operands statement)))))
 
+(defparameter *numerics-long-program* 15000
+  "Statements whose code, 15 bytes each, begins to crowd all else out of the caches.")
+
+(defun numerics-long-program-p (statements) (>= (length statements) *numerics-long-program*))
+
 (defun numerics-cut (statements)
   "STATEMENTS as a list of parts."
+  (if (numerics-long-program-p statements)
+      (numerics-repeated-parts statements *numerics-part-length*)
+      (numerics-plain-cut statements)))
+
+(defun numerics-plain-cut (statements)
   (loop while statements
         collect (loop with length = 0
                       while (and statements (< length *numerics-part-length*))
@@ -202,7 +213,7 @@ they are kept."
 ;;; A part. Its steps, the last first, are (variable form) or (nil form), which is done for what it
 ;;; stores.
 
-(defun numerics-part-form (code part)
+(defun numerics-part-statements (code part)
   (let ((steps '()) (written (make-hash-table)))
     (flet ((bind (variable form) (push (list variable form) steps))
            (store (vector place form)
@@ -218,7 +229,7 @@ they are kept."
                (store 'out (second statement) (numerics-text code (cddr statement) written)))
               (t (store 'out (second statement)
                         (numerics-row-text code (cddr statement) written))))))
-    (numerics-part-function steps)))
+    (numerics-part-body steps)))
 
 (defun numerics-row-text (code form written)
   "The sum FORM in the order of a product."
@@ -234,16 +245,19 @@ they are kept."
           do (setq sum (if sum `(+ ,sum ,term) term)))
     (or sum 0d0)))
 
-(defun numerics-part-function (steps)
+(defun numerics-part-body (steps)
   (let ((body '(nil)))
     (loop for (variable form) in steps
           do (setq body (if variable
                             `((let ((,variable ,form)) ,@body))
                             (cons form body))))
-    `(lambda (x w out)
-       (declare (type (simple-array double-float (*)) x w out) (ignorable x w out)
-                (optimize (speed 1) (safety 0) (debug 0)))
-       ,@body)))
+    body))
+
+(defun numerics-part-form (body)
+  `(lambda (x w out)
+     (declare (type (simple-array double-float (*)) x w out) (ignorable x w out)
+              (optimize (speed 1) (safety 0) (debug 0)))
+     ,@body))
 
 (defun numerics-write-node (code node written bind store)
   (let* ((index (algebra-node-index node)) (slot (numerics-slot code node))
@@ -295,8 +309,14 @@ they are kept."
       (values code early late))))
 
 (defun numerics-compiled-parts (code parts)
-  (let ((forms (loop for part in parts collect (numerics-part-form code part))))
-    (core-quietly (lambda () (map 'simple-vector (lambda (form) (compile nil form)) forms)))))
+  "The function (x w out) that does PARTS one after the other."
+  (let ((bodies (loop for part in parts collect (numerics-part-statements code part))))
+    (core-quietly
+     (lambda ()
+       (or (and (numerics-long-program-p (loop for part in parts append part))
+                (numerics-shared-routine bodies))
+           (numerics-caller (loop for body in bodies
+                                  collect (compile nil (numerics-part-form body)))))))))
 
 (defun numerics-compiled (plan)
   "Two functions: (time x out), and (seed out) for the second stage."
@@ -307,13 +327,13 @@ they are kept."
            (second (numerics-compiled-parts code late))
            (work (numerics-zeros (numerics-code-length code))))
       (loop for (place . value) in (numerics-code-presets code) do (setf (aref work place) value))
-      (numerics-entries plan work (lambda (node) (numerics-slot code node))
-                        (numerics-caller first) (numerics-caller second)))))
+      (numerics-entries plan work (lambda (node) (numerics-slot code node)) first second))))
 
 (defun numerics-caller (parts)
   "What calls PARTS, functions (x w out), one after the other."
-  (if (= (length parts) 1)
-      (aref parts 0)
-      (lambda (x w out)
-        (declare (type simple-vector parts) (optimize speed))
-        (loop for part across parts do (funcall (the function part) x w out)))))
+  (if (and parts (null (rest parts)))
+      (first parts)
+      (let ((parts (coerce parts 'simple-vector)))
+        (lambda (x w out)
+          (declare (type simple-vector parts) (optimize speed))
+          (loop for part across parts do (funcall (the function part) x w out))))))

@@ -32,10 +32,9 @@
 (defun numerics-gauss-order (controls)
   "The order that reaches the tolerance with the fewest rates, as measured on the double pendulum."
   (let ((tolerance (numerics-controls-relative controls)))
-    (cond ((>= tolerance 1d-4) 4)
-          ((>= tolerance 1d-6) 6)
-          ((>= tolerance 1d-9) 8)
-          ((>= tolerance 1d-11) 10)
+    (cond ((>= tolerance 1d-4) 6)
+          ((>= tolerance 1d-6) 8)
+          ((>= tolerance 1d-9) 10)
           (t 12))))
 
 (defun numerics-gauss-steps (run controls moment state observer)

@@ -129,34 +129,74 @@ are computed in whole numbers, multiples of the common part of all."
                       for known-weight in known-weights
                       collect (/ (* weight value) known-weight))))
 
-(defun numerics-gauss-memory (nodes weights steps)
-  "Foresight from the last STEPS steps, the oldest first; the next one goes from 1 to 2."
-  (numerics-stage-foresight
-   (loop for k from (- 1 steps) to 0 append (mapcar (lambda (c) (+ c k)) nodes))
-   (loop repeat steps append weights)
-   (mapcar #'1+ nodes) weights))
+(defun numerics-gauss-memory (nodes weights)
+  "Foresight from the last step, which goes from 0 to 1, for the next one."
+  (numerics-stage-foresight nodes weights (mapcar #'1+ nodes) weights))
+
+;;; The rates in the stages are no values of a smooth function: their errors, of order s + 1, make
+;;; the same pattern in each step, and a polynomial through two steps would make it thousands of
+;;; times as large. So foresight from two steps is exact for polynomials of degree 2s - 3 and for
+;;; that pattern, constant or linear in time (starting approximations: Hairer, Lubich, Wanner,
+;;; Geometric Numerical Integration, VIII.6.1).
+
+(defun numerics-stage-errors (nodes)
+  "The pattern: (s + 1) sum_j a_ij c_j^s - c_i^(s + 1)."
+  (let ((s (length nodes)))
+    (loop for node in nodes
+          for row in (numerics-collocation-integrals nodes nodes)
+          collect (- (* (1+ s) (loop for a in row for c in nodes sum (* a (expt c s))))
+                     (expt node (1+ s))))))
+
+(defun numerics-gauss-memory-of-two (nodes weights)
+  "Foresight from the last two steps, the older first."
+  (let* ((known (append (mapcar #'1- nodes) nodes)) (errors (numerics-stage-errors nodes))
+         (free (numerics-free-factors known)))
+    (loop for node in nodes
+          for weight in weights
+          for own in errors
+          for row = (numerics-lagrange-values known (1+ node))
+          collect (loop for factor in (numerics-with-pattern row free errors own)
+                        for known-weight in (append weights weights)
+                        collect (/ (* weight factor) known-weight)))))
+
+(defun numerics-free-factors (known)
+  "Two rows of factors that give 0 for polynomials of degree 2s - 3 on the 2s nodes KNOWN."
+  (let ((difference (loop for node in known
+                          collect (/ (reduce #'* (mapcar (lambda (other) (- node other))
+                                                         (remove node known)))))))
+    (list difference (mapcar #'* known difference))))
+
+(defun numerics-with-pattern (row free errors own)
+  "ROW and a combination of the rows FREE, so that ERRORS foretell OWN whether they stay or grow by
+the step: twice OWN from the last step, -OWN from the older one."
+  (flet ((sums (row)
+           (let ((s (length errors)))
+             (list (reduce #'+ (mapcar #'* errors (subseq row 0 s)))
+                   (reduce #'+ (mapcar #'* errors (subseq row s)))))))
+    (destructuring-bind ((older last) (a c) (b d)) (mapcar #'sums (cons row free))
+      (let* ((p (- (- own) older)) (q (- (* 2 own) last)) (determinant (- (* a d) (* b c)))
+             (first (/ (- (* p d) (* q b)) determinant))
+             (second (/ (- (* a q) (* c p)) determinant)))
+        (mapcar (lambda (x u w) (+ x (* first u) (* second w)))
+                row (first free) (second free))))))
 
 (defun numerics-gauss-share (nodes weights share)
   (numerics-stage-foresight nodes weights
                             (mapcar (lambda (c) (* share c)) nodes)
                             (mapcar (lambda (b) (* share b)) weights)))
 
-(defparameter *numerics-gauss-memory* 2 "From how many steps the stages of the next are foretold.")
-
 (defun numerics-new-gauss-table (stages)
   (let* ((nodes (numerics-gauss-nodes stages 120)) (weights (numerics-gauss-weights nodes)))
-    (flet ((vectors (rows first last)
-             (coerce (cons nil (loop for k from first to last
-                                     collect (numerics-vector-of (funcall rows k))))
-                     'simple-vector)))
+    (flet ((vectors (rows)
+             (coerce (cons nil (mapcar #'numerics-vector-of rows)) 'simple-vector)))
       (make-numerics-gauss-table
        :nodes (numerics-vector-of (list nodes))
        :weights (numerics-vector-of (list weights))
        :quotients (numerics-vector-of (numerics-gauss-quotients nodes weights))
-       :memories (vectors (lambda (k) (numerics-gauss-memory nodes weights k))
-                          1 *numerics-gauss-memory*)
-       :shares (vectors (lambda (k) (numerics-gauss-share nodes weights (/ k stages)))
-                        1 (1- stages))))))
+       :memories (vectors (list (numerics-gauss-memory nodes weights)
+                                (numerics-gauss-memory-of-two nodes weights)))
+       :shares (vectors (loop for k from 1 below stages
+                              collect (numerics-gauss-share nodes weights (/ k stages))))))))
 
 (defvar *numerics-gauss-tables* (make-hash-table) "Stages -> table, made when first asked for.")
 

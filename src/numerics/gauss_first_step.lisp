@@ -57,8 +57,8 @@ that cannot be made bounds all others."
           (setq step next))))))
 
 (defun numerics-pilot-length (span step)
-  "After how many steps a pilot run ends: three rates there cost as much as one of the run."
-  (max 32 (min 5000 (/ (abs span) step 6))))
+  "After how many steps a pilot run ends: one there costs as much as four of the run."
+  (max 32 (min 2000 (/ (abs span) step 6))))
 
 (defun numerics-pilot-fit (pilot)
   "The factor by which the step of PILOT may be longer, between 1/8 and 4; nil where it cannot be
@@ -70,7 +70,7 @@ made."
       (let ((order (* 2 (numerics-gauss-run-stages whole))) (error (numerics-pilot-error pilot))
             (allowed (numerics-controls-relative (numerics-pilot-controls pilot))))
         (if (> error 0d0)
-            (max 0.125d0 (min 4d0 (* 0.9d0 (expt (/ allowed error) (/ 1d0 (1+ order))))))
+            (max 0.125d0 (min 4d0 (* 0.85d0 (expt (/ allowed error) (/ 1d0 (1+ order))))))
             4d0)))))
 
 (defun numerics-pilot-made (run pilot moment state step)

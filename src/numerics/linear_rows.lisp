@@ -81,7 +81,7 @@ nil."
 (defun numerics-worthy-rows (chosen form outputs share)
   "The rows of CHOSEN and the other OUTPUTS, or nil where they replace too few nodes: less than
 SHARE of all, or less than half as many as the product has entries."
-  (let* ((others (set-difference outputs chosen))
+  (let* ((others (numerics-outputs-without chosen outputs))
          (rows (loop for output in chosen collect (cons (car output) (funcall form output))))
          (kept (append (mapcar #'cdr others)
                        (loop for (nil nil . terms) in rows append (mapcar #'car terms))))
@@ -91,7 +91,13 @@ SHARE of all, or less than half as many as the product has entries."
          (>= replaced (* share all))
          (<= (loop for (nil nil . terms) in rows sum (length terms))
              (+ (* 2 replaced) (length rows)))
-         (values rows (sort others #'< :key #'car)))))
+         (values rows others))))
+
+(defun numerics-outputs-without (chosen outputs)
+  "OUTPUTS but those CHOSEN, which stand in the same order."
+  (loop for output in outputs
+        if (eq output (car chosen)) do (pop chosen)
+        else collect output))
 
 (defun numerics-count-operations (elements)
   (count-if-not #'algebra-input-p (algebra-live-nodes elements)))
