@@ -9,7 +9,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/problem" "numerics/step_control"
-                "numerics/linear_solver" "numerics/linear_solver_matrix"
+                "numerics/linear_solver"
                 "numerics/radau_coefficients" "numerics/radau_run"
                 "numerics/radau_start" "numerics/radau_newton" "numerics/radau_control"
                 "numerics/radau_dense"

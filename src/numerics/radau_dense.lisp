@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/linear_solver" "numerics/problem" "numerics/radau_coefficients"
+  (core-require "numerics/problem" "numerics/radau_coefficients"
                 "numerics/radau_newton" "numerics/radau_run"))
 
 (defparameter *numerics-radau-inner-share* 0.8d0)

@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/problem" "numerics/linear_solver" "numerics/radau_coefficients"
-                "numerics/radau_run"))
+  (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/problem"
+                "numerics/radau_coefficients" "numerics/radau_run"))
 
 (defparameter *numerics-radau-iterations* 7)
 
