@@ -9,8 +9,8 @@
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
                 "forms/fixed" "forms/program_judge" "forms/rates"
-                "forms/value" "numerics/mass_index"
-                "numerics/rate_mass"))
+                "forms/value" "numerics/assumed_values" "numerics/mass_index"
+                "numerics/rate_mass" "numerics/right_side_divisors"))
 
 ;;; Values.
 
@@ -62,9 +62,6 @@
                       collect (format nil "~a = ~a" (core-words (list name))
                                       (numerics-value-text element)))
                 (and guard (core-words (list (first guard)))))))
-
-(defun numerics-value-text (element)
-  (if (numberp element) (core-words (list (algebra-maxima-rational element))) "its value"))
 
 (defun numerics-nought-p (element)
   "Whether ELEMENT vanishes, at sight or at a random point."
@@ -173,6 +170,7 @@ sight."
 M as far as it goes; and whether M is constant."
   (let ((new (numerics-exchanged-rates rates pairs)))
     (numerics-check-exchange rates new pairs)
+    (numerics-check-assumed pairs)
     (values (numerics-checked-index (numerics-settled-rates new solved) rates pairs)
             (numerics-constant-mass-p new))))
 
