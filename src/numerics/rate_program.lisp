@@ -9,8 +9,8 @@
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
                 "forms/fixed" "forms/program_judge" "forms/rates"
-                "forms/value" "numerics/assumed_values" "numerics/mass_index"
-                "numerics/rate_mass" "numerics/right_side_divisors"))
+                "forms/value" "numerics/assumed_values" "numerics/directions"
+                "numerics/mass_index" "numerics/program" "numerics/rate_mass" "numerics/right_side_divisors"))
 
 ;;; Values.
 
@@ -154,6 +154,24 @@ sight."
   (count-if-not #'algebra-input-p
                 (algebra-live-nodes (numerics-right-sides rates))))
 
+(defun numerics-entry-fields (rates)
+  "How many entries dX_i/dx_j of RATES there are, and [i, j, value] of those that are constant."
+  (let* ((program (numerics-program-of rates)) (constants (numerics-constant-slopes program)))
+    (list (algebra-field '$entries (loop for set in (numerics-dependences program)
+                                         sum (logcount set)))
+          (algebra-field
+           '$constant_entries
+           (cons '(mlist simp)
+                 (loop for (i j) in (sort (loop for place being the hash-keys of constants
+                                                collect place)
+                                          #'numerics-place-before-p)
+                       collect (algebra-list (1+ i) (1+ j)
+                                             (algebra-maxima-rational
+                                              (gethash (list i j) constants)))))))))
+
+(defun numerics-place-before-p (a b)
+  (or (< (first a) (first b)) (and (= (first a) (first b)) (< (second a) (second b)))))
+
 (defun numerics-constant-mass-p (rates)
   (let ((moving (if (forms-rates-split rates)
                     (subseq (forms-rates-states rates) 0 (forms-rates-split rates))
@@ -188,10 +206,11 @@ M as far as it goes; and whether M is constant."
       (multiple-value-bind (new constant) (numerics-run-rates rates pairs solved)
         (numerics-program-record
          new
-         (list (algebra-field '$mass_constant constant)
-               (algebra-field '$operations_before (numerics-operations-without rates solved))
-               (algebra-field '$operations_after (numerics-operations new))
-               (algebra-field '$zero
-                              (cons '(mlist simp)
-                                    (loop for (name . element) in pairs
-                                          when (eql element 0) collect name)))))))))
+         (list* (algebra-field '$mass_constant constant)
+                (algebra-field '$operations_before (numerics-operations-without rates solved))
+                (algebra-field '$operations_after (numerics-operations new))
+                (algebra-field '$zero
+                               (cons '(mlist simp)
+                                     (loop for (name . element) in pairs
+                                           when (eql element 0) collect name)))
+                (numerics-entry-fields new)))))))

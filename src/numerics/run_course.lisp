@@ -171,8 +171,9 @@ for others a part of an observer, or nil."
 
 (defun numerics-trouble-of-steps (run outcome)
   (if (numerics-simulation-lost run)
-      (format nil "the mass matrix becomes singular: ~a"
-              (numerics-lost-words (numerics-simulation-lost run)))
+      (format nil "~:[the mass matrix becomes singular: ~;~]~a"
+              (numerics-multiplier-p (first (numerics-simulation-lost run)) run)
+              (numerics-lost-words run (numerics-simulation-lost run)))
       (format nil (ecase (numerics-outcome-status outcome)
                     (:not-finite "the right-hand side has no finite value there")
                     (:smallest-step "the step became as small as the last place of t: the solution ~
