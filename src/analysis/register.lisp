@@ -216,7 +216,7 @@
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
                                ("Signature" "analysis_signature")
-                               ("Definite" "analysis_definite"))
+                               ("Definite" "analysis_definite_or_undecided"))
       do (core-public name :forms '(("matrices" "A")))
          (core-rule name :any "analysis/definite" function "A"))
 
