@@ -131,8 +131,8 @@ none."
    (lambda ()
      (let ((archive (archive-of-text "the description" text)))
        (setf (archive-path archive) nil)
-       (archive-watched options
-                        (lambda () (archive-run (archive-call-on public archive '() options) t)))))))
+       (archive-watched
+        options (lambda () (archive-run (archive-call-on public archive '() options) t)))))))
 
 (defun archive-call-system (public positional options)
   (archive-run (archive-call-on public (archive-open-system (car positional)) (cdr positional)
@@ -200,8 +200,8 @@ none."
   (member name '("kind" "field" "sign" "algebra") :test #'equal))
 
 (defun archive-run (call &optional trial)
-  "The value of the call's target, computed in the guard; new steps are saved, and what the call does
-is done. A TRIAL does not."
+  "The value of the call's target, computed in the guard; new steps are saved, and what the call
+does is done. A TRIAL does not."
   (setq *core-names* (archive-call-names call)
         *core-has-parameters* (lambda () (archive-has-parameters-p call))
         *core-unsaved* (not (archive-saves-p call)))

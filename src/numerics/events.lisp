@@ -194,8 +194,8 @@ zero at the sample K itself was met before it.)"
       (list (list share place direction)))))
 
 (defun numerics-zeros-after (events step place k)
-  "Zeros of the function PLACE after the sample K up to the next; its new side is noted. Where it has
-no value there is no zero, and it begins anew after that."
+  "Zeros of the function PLACE after the sample K up to the next; its new side is noted. Where it
+has no value there is no zero, and it begins anew after that."
   (let* ((sides (numerics-events-sides events)) (side (svref sides place))
          (here (numerics-sample events place k)) (there (numerics-sample events place (1+ k)))
          (new (numerics-side there)))

@@ -16,8 +16,8 @@
   (step 0d0 :type double-float))
 
 (defun numerics-gauss-fitting-step (problem controls moment state stages)
-  "The step from the controls, else from a pilot run; or the keyword of what went wrong there, and the
-time."
+  "The step from the controls, else from a pilot run; or the keyword of what went wrong there, and
+the time."
   (let* ((span (- (numerics-controls-end controls) (aref moment 0)))
          (given (numerics-controls-first-step controls)))
     (cond ((= span 0d0) span)

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; A run of M x' = X(t, x): the problem made from the rates with numbers put in, the start, what
 ;;; looks on, and the method. What cannot be run is refused before the first step: a name without a
-;;; value, a start off a constraint or where the equations have no value or divide by a pivot that is
-;;; lost. Look first at numerics-new-run, then at numerics-make-run.
+;;; value, a start off a constraint or where the equations have no value or divide by a pivot that
+;;; is lost. Look first at numerics-new-run, then at numerics-make-run.
 
 (in-package :maxima)
 
@@ -80,8 +80,8 @@
              copy))))
 
 (defun numerics-new-run (rates values start span wishes)
-  "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES were
-put in, pairs (name . element)."
+  "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES
+were put in, pairs (name . element)."
   (numerics-check-names rates (numerics-run-elements rates))
   (destructuring-bind (from to)
       (mapcar (lambda (e) (numerics-double e "an end of the span")) (numerics-read-span span))
@@ -144,9 +144,10 @@ momenta that have one of VALUES, equations, begin with it."
 ;;; What looks on
 
 (defun numerics-wished-rows (run from to)
-  (numerics-new-rows (numerics-read-points (numerics-wishes-points (numerics-simulation-wishes run)) from to)
-                     (numerics-simulation-moment run) (numerics-simulation-state run)
-                     (numerics-back-to-constraints run)))
+  (let ((points (numerics-wishes-points (numerics-simulation-wishes run))))
+    (numerics-new-rows (numerics-read-points points from to)
+                       (numerics-simulation-moment run) (numerics-simulation-state run)
+                       (numerics-back-to-constraints run))))
 
 (defun numerics-back-to-constraints (run)
   "The function (moment x) that brings a state between two steps back to the constraints, or nil."
@@ -214,7 +215,8 @@ momenta that have one of VALUES, equations, begin with it."
                 do (return (list (numerics-name-text name) share)))))))
 
 (defun numerics-lost-words (lost)
-  "What is said of a pivot that is LOST: (coordinate share); where M_kk is 0 too the share is no number."
+  "What is said of a pivot that is LOST: (coordinate share); where M_kk is 0 too the share is no
+number."
   (destructuring-bind (name share) lost
     (if (numerics-with-masked-traps (= share share))
         (format nil "of the inertia of ~a ~a of 1 is left when the bodies beyond it yield"

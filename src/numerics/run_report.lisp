@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a run says of itself beside its rows: how it ended, what it cost, how far its integrals drift
-;;; and its constraints are off; and the warning where a drift is out of proportion. See
+;;; What a run says of itself beside its rows: how it ended, what it cost, how far its integrals
+;;; drift and its constraints are off; and the warning where a drift is out of proportion. See
 ;;; numerics-report first.
 
 (in-package :maxima)
