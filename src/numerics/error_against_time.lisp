@@ -41,6 +41,13 @@
             (stable-sort (copy-list items) #'>
                          :key (lambda (item) (values (numerics-read-tolerance item names)))))))
 
+(defun numerics-read-cell (seconds)
+  (let ((number (numerics-double seconds "cell")))
+    (unless (> number 0d0)
+      (core-error "cell is the number of seconds that a method may take at a tolerance, found ~a"
+                  (core-words (list seconds))))
+    number))
+
 ;;; The attempts
 
 (defun numerics-tolerance-as-told (tolerance)
@@ -132,30 +139,43 @@ it failed is skipped."
           ((<= error floor) "reached the end; below the floor of the reference")
           (t "reached the end"))))
 
+(defun numerics-machine-text ()
+  "Where seconds were measured."
+  (format nil "~a ~a, ~@[~a~]" (lisp-implementation-type) (lisp-implementation-version)
+          (machine-version)))
+
+(defun numerics-told-reference (reference floor)
+  (algebra-list (algebra-field '$method (numerics-reference-method reference))
+                (algebra-field '$digits (numerics-reference-digits reference))
+                (algebra-field '$floor (and floor (numerics-few-digits floor)))))
+
+(defun numerics-told-contest (contest methods tolerances floor)
+  "The record of CONTEST, all attempts made; that of those so far where it is stopped."
+  (let ((conditioning (numerics-trial-conditioning (numerics-contest-trial contest))))
+    (multiple-value-bind (attempts stop) (numerics-all-attempts contest methods tolerances)
+      (when stop (core-partial "~a; the rows so far are kept as a part" stop))
+      (algebra-list
+       (algebra-field '$reference
+                      (numerics-told-reference (numerics-contest-reference contest) floor))
+       (algebra-field '$conditioning (and conditioning (numerics-few-digits conditioning)))
+       (algebra-field '$columns (cons '(mlist simp) *numerics-row-columns*))
+       (algebra-field '$rows
+                      (cons '(mlist simp)
+                            (mapcar (lambda (attempt)
+                                      (numerics-attempt-row contest attempt floor))
+                                    attempts)))))))
+
 (defun $numerics_error_against_time (trial reference methods tolerances seconds)
-  "The record of TRIAL against REFERENCE, as $numerics_trial_reference makes it; an attempt may
+  "The record of TRIAL against REFERENCE, as $numerics_reference_solution makes it; an attempt may
 take SECONDS."
   (let* ((methods (numerics-read-methods methods))
          (tolerances (numerics-read-tolerances tolerances trial))
          (scales (numerics-trial-scales trial (first tolerances)))
          (reference (numerics-read-reference reference))
-         (floor (and (numerics-reference-rows reference)
-                     (numerics-reference-floor reference scales)))
-         (conditioning (numerics-trial-conditioning trial))
          (contest (make-numerics-contest :trial trial :reference reference :scales scales
-                                         :seconds (numerics-double seconds "cell"))))
-    (multiple-value-bind (attempts stop) (numerics-all-attempts contest methods tolerances)
-      (when stop (core-partial "~a; the rows so far are kept as a part" stop))
-      (flet ((few (x) (and x (numerics-few-digits x))))
-        (algebra-list
-         (algebra-field '$reference
-                        (algebra-list
-                         (algebra-field '$method (numerics-reference-method reference))
-                         (algebra-field '$digits (numerics-reference-digits reference))
-                         (algebra-field '$floor (few floor))))
-         (algebra-field '$conditioning (few conditioning))
-         (algebra-field '$columns (cons '(mlist simp) *numerics-row-columns*))
-         (algebra-field '$rows
-                        (cons '(mlist simp)
-                              (mapcar (lambda (attempt) (numerics-attempt-row contest attempt floor))
-                                      attempts))))))))
+                                         :seconds (numerics-read-cell seconds))))
+    (core-report "run" (algebra-list (algebra-field '$machine (numerics-machine-text))
+                                     (algebra-field '$cell (numerics-contest-seconds contest))))
+    (numerics-told-contest contest methods tolerances
+                           (and (numerics-reference-rows reference)
+                                (numerics-reference-floor reference scales)))))

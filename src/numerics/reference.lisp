@@ -19,11 +19,13 @@
   errors ; of each state, at most about, a vector
   rows)  ; lists (time . states) of double-float numbers; nil where nothing could be had
 
-(defun numerics-reference-of (problem controls start times &key (digits 20) (most-steps 5000)
+(defun numerics-reference-of (problem controls start times &key (most-steps 5000)
                                                              (observer (constantly nil)))
   "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the
-exact TIMES; the last of these is the end. OBSERVER looks on at the steps in double-float numbers."
-  (or (numerics-series-reference problem controls start times digits most-steps)
+exact TIMES; the last of these is the end. OBSERVER looks on at the steps in double-float numbers. With
+no steps no series are tried."
+  (or (and (plusp most-steps)
+           (numerics-series-reference problem controls start times most-steps))
       (numerics-implicit-reference
        problem controls observer (map 'list #'numerics-double-of-exact times)
        (map 'numerics-vector #'numerics-double-of-exact start))))
@@ -42,11 +44,12 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
 
 ;;; Taylor series
 
+(defparameter *numerics-series-digits* 20)
 (defparameter *numerics-series-seconds* 20 "No longer series are tried.")
 
-(defun numerics-series-reference (problem controls start times digits most-steps)
+(defun numerics-series-reference (problem controls start times most-steps)
   "The reference by Taylor series, nil where they do not reach the end in this time, or cannot begin."
-  (let ((outcome (numerics-series-outcome problem controls start times digits most-steps)))
+  (let ((outcome (numerics-series-outcome problem controls start times most-steps)))
     (when (and outcome (eq (numerics-outcome-status outcome) :end))
       (make-numerics-reference
        :state (numerics-outcome-state outcome) :method (numerics-outcome-about outcome)
@@ -55,7 +58,7 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
        :rows (mapcar (lambda (row) (mapcar #'numerics-double-of-exact row))
                      (numerics-taylor-outcome-rows outcome))))))
 
-(defun numerics-series-outcome (problem controls start times digits most-steps)
+(defun numerics-series-outcome (problem controls start times most-steps)
   (let ((program (numerics-problem-program problem))
         (scales (map 'list #'rational (numerics-full-scales controls (length start)))))
     (when program
@@ -63,7 +66,7 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
               (lambda ()
                 (core-within *numerics-series-seconds*
                              (lambda ()
-                               (numerics-taylor program start times digits
+                               (numerics-taylor program start times *numerics-series-digits*
                                                 :scales scales :most-steps most-steps)))))))))
 
 (defun numerics-errors-of-series (outcome scales)
