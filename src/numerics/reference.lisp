@@ -8,8 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode"
-                "numerics/observers" "numerics/problem" "numerics/radau" "numerics/step_control"
+  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode" "numerics/problem" "numerics/radau" "numerics/step_control"
                 "numerics/taylor"))
 
 (defstruct numerics-reference
@@ -20,15 +19,16 @@
   rows)  ; lists (time . states) of double-float numbers; nil where nothing could be had
 
 (defun numerics-reference-of (problem controls start times &key (most-steps 5000)
-                                                             (observer (constantly nil)))
+                                                             (observer (constantly nil))
+                                                             (other 'numerics-dlsode))
   "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the
 exact TIMES; the last of these is the end. OBSERVER looks on at the steps in double-float numbers. With
-no steps no series are tried."
+no steps no series are tried. OTHER is the method that confirms an end by implicit steps."
   (or (and (plusp most-steps)
            (numerics-series-reference problem controls start times most-steps))
       (numerics-implicit-reference
        problem controls observer (map 'list #'numerics-double-of-exact times)
-       (map 'numerics-vector #'numerics-double-of-exact start))))
+       (map 'numerics-vector #'numerics-double-of-exact start) other)))
 
 (defun numerics-double-of-exact (e) (coerce ($float e) 'double-float))
 
@@ -82,7 +82,7 @@ no steps no series are tried."
 
 ;;; Implicit steps
 
-(defun numerics-implicit-reference (problem controls observer times start)
+(defun numerics-implicit-reference (problem controls observer times start other)
   (flet ((rows (relative)
            (numerics-rows-by-radau problem (numerics-copied-controls controls relative 0d0)
                                    observer times start)))
@@ -90,7 +90,7 @@ no steps no series are tried."
       (if coarse
           (numerics-judged-reference
            fine (numerics-largest-differences fine coarse)
-           (numerics-distance-of-dlsode problem controls (first times) start (first (last fine)))
+           (numerics-confirmation problem controls observer fine other)
            (numerics-full-scales controls (length start)))
           (make-numerics-reference
            :method "no reference: Radau at a tolerance of 1e-13 does not reach the end")))))
@@ -119,36 +119,42 @@ no steps no series are tried."
                        largest state other))
     largest))
 
-(defun numerics-distance-of-dlsode (problem controls time start end)
-  "Of its end to END; nil where it cannot tell. It knows no mass matrix."
-  (unless (numerics-problem-mass problem)
-    (let ((outcome (core-within *numerics-series-seconds*
-                                (lambda ()
-                                  (numerics-dlsode problem
-                                                   (numerics-copied-controls controls 1d-11
-                                                                             (first end))
-                                                   (numerics-moment time) start
-                                                   (numerics-progress-part controls))))))
-      (and outcome (eq (numerics-outcome-status outcome) :end)
-           (numerics-distance (numerics-outcome-state outcome)
-                              (coerce (rest end) 'numerics-vector)
-                              (numerics-full-scales controls (length start)))))))
+(defparameter *numerics-confirming-seconds* 20 "No longer another method is waited for.")
+
+(defun numerics-confirmation (problem controls observer rows other)
+  "(name . distance): the method OTHER and how far from the last of ROWS it ends at a tolerance of 1e-11;
+no distance where it does not come there. It knows no mass matrix."
+  (cons (if (eq other 'numerics-dlsode) "dlsode" "DOP853")
+        (unless (numerics-problem-mass problem)
+          (let* ((end (first (last rows))) (start (first rows))
+                 (controls (numerics-copied-controls controls 1d-11 (first end)))
+                 (outcome (core-within *numerics-confirming-seconds*
+                                       (lambda ()
+                                         (funcall other problem controls
+                                                  (numerics-moment (first start))
+                                                  (coerce (rest start) 'numerics-vector)
+                                                  observer)))))
+            (when (and outcome (eq (numerics-outcome-status outcome) :end))
+              (numerics-distance (numerics-outcome-state outcome)
+                                 (coerce (rest end) 'numerics-vector)
+                                 (numerics-full-scales controls (length (rest end)))))))))
 
 (defparameter *numerics-most-distance* 1d-4 "Of another method of less accuracy to the reference.")
 
-(defun numerics-judged-reference (rows errors distance scales)
-  (if (and distance (> distance *numerics-most-distance*))
-      (make-numerics-reference
-       :method (format nil "no reference: Radau at 1e-13 and dlsode at 1e-11 end ~a apart"
-                       (numerics-short-number distance)))
-      (let* ((reference (make-numerics-reference
-                         :state (coerce (rest (first (last rows))) 'numerics-vector)
-                         :errors errors :rows rows))
-             (floor (numerics-reference-floor reference scales)))
-        (setf (numerics-reference-digits reference) (- (log floor 10))
-              (numerics-reference-method reference)
-              (format nil "Radau at a tolerance of 1e-13, ~a from that at 1e-12~@[, ~a from ~
-                           dlsode at 1e-11~]"
-                      (numerics-short-number floor)
-                      (and distance (numerics-short-number distance))))
-        reference)))
+(defun numerics-judged-reference (rows errors confirmation scales)
+  (destructuring-bind (name . distance) confirmation
+    (if (and distance (> distance *numerics-most-distance*))
+        (make-numerics-reference
+         :method (format nil "no reference: Radau at 1e-13 and ~a at 1e-11 end ~a apart" name
+                         (numerics-short-number distance)))
+        (let* ((reference (make-numerics-reference
+                           :state (coerce (rest (first (last rows))) 'numerics-vector)
+                           :errors errors :rows rows))
+               (floor (numerics-reference-floor reference scales)))
+          (setf (numerics-reference-digits reference) (- (log floor 10))
+                (numerics-reference-method reference)
+                (format nil "Radau at a tolerance of 1e-13, ~a from that at 1e-12~:[; no other ~
+                             method confirms it~;, ~:*~a from ~a at 1e-11~]"
+                        (numerics-short-number floor)
+                        (and distance (numerics-short-number distance)) name))
+          reference))))

@@ -7,9 +7,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "numerics/automatic" "numerics/back_to_constraints"
-                "numerics/conditioning" "numerics/decimals" "numerics/native"
-                "numerics/observers" "numerics/problem" "numerics/program" "numerics/reference"
-                "numerics/run" "numerics/run_course" "numerics/run_digits" "numerics/trial"))
+                "numerics/conditioning" "numerics/decimals" "numerics/dlsode"
+                "numerics/dormand_prince" "numerics/native" "numerics/observers"
+                "numerics/problem" "numerics/program" "numerics/reference" "numerics/run"
+                "numerics/run_course" "numerics/run_digits" "numerics/trial"))
 
 (defun numerics-reference-observer (run)
   "What looks on at the steps of a reference: back to the constraints of RUN, and progress."
@@ -33,7 +34,8 @@
         (numerics-reference-of
          (numerics-simulation-problem run) (numerics-simulation-controls run) start times
          :most-steps (if (numerics-series-begin-p run start (first times)) 5000 0)
-         :observer (numerics-reference-observer run))))))
+         :observer (numerics-reference-observer run)
+         :other (if (numerics-simulation-constraints run) 'numerics-dopri 'numerics-dlsode))))))
 
 (defun $numerics_reference_solution (trial)
   "Record: method, digits, errors of each state, rows [t, x1, ..]; one that its time did not suffice for is
