@@ -228,6 +228,10 @@ to the rule only."
 (defun archive-numbers-over-values (call pairs)
   "PAIRS where numbers given to parameters of a run stand in `values', over those of the archive."
   (let ((numbers (find-if #'archive-numbers-p pairs)))
+    (when (core-public-numerical (archive-call-public call))
+      (archive-check-numbered-names
+       call (append (cdr numbers) (cdr (assoc "values" pairs :test #'string=)))
+       (archive-names-beside-numbers call pairs)))
     (if (and numbers (core-public-numerical (archive-call-public call)))
         (let* ((values (or (cdr (assoc "values" pairs :test #'string=))
                            (archive-key-value call "values")))
@@ -238,6 +242,42 @@ to the rule only."
                  (remove-if (lambda (pair) (or (eq pair numbers) (string= (car pair) "values")))
                             pairs)))
         pairs)))
+
+;;; A number for a name that nothing contains would change nothing: it is a misprint
+
+(defun archive-names-beside-numbers (call pairs)
+  "The names that CALL contains, PAIRS being its options; left sides of `values' that are given in
+it aside."
+  (let ((archive (archive-call-archive call)))
+    (append
+     (loop for value being the hash-values of (archive-call-given call)
+           append (archive-names-in value))
+     (loop for (name . value) in pairs
+           unless (member name '("values" "parameters") :test #'string=)
+             append (archive-names-in value))
+     (archive-momentum-names (archive-list (list (archive-equation
+                                                  '$coordinates
+                                                  (gethash "coordinates" (archive-call-given call)
+                                                           '((mlist)))))))
+     (and archive (archive-known-names (archive-call-kind call) (archive-description archive))))))
+
+(defun archive-check-numbered-names (call equations known)
+  "An error for an equation name = number among EQUATIONS whose name is not KNOWN in CALL."
+  (dolist (name (mapcar #'second (remove-if-not #'archive-equation-p equations)))
+    (unless (or (member name known) (not (archive-symbol-p name)))
+      (let* ((word (core-spelling name))
+             (words (mapcar #'core-spelling (archive-parameters call known)))
+             (near (if (= (length word) 1)
+                       (find word words :test #'string-equal)
+                       (core-nearest word words))))
+        (core-error "~a is given a number and does not occur in this system~@[; did you mean ~a?~]"
+                    word near)))))
+
+(defun archive-parameters (call known)
+  "Those of the names KNOWN that may have a number."
+  (let ((archive (archive-call-archive call)))
+    (set-difference known (and archive (mapcar #'car (archive-moving-names
+                                                      (archive-description archive)))))))
 
 ;;; Keys that are overruled
 

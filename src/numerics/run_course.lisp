@@ -181,8 +181,9 @@ it, and whether it was the latter. WITHIN calls a function within a time, as cor
 
 (defun numerics-trouble-of-steps (run outcome)
   (if (numerics-simulation-lost run)
-      (format nil "the mass matrix becomes singular: ~a"
-              (numerics-lost-words (numerics-simulation-lost run)))
+      (format nil "~:[the mass matrix becomes singular: ~;~]~a"
+              (numerics-multiplier-p (first (numerics-simulation-lost run)) run)
+              (numerics-lost-words run (numerics-simulation-lost run)))
       (format nil (ecase (numerics-outcome-status outcome)
                     (:not-finite "the right-hand side has no finite value there")
                     (:smallest-step "the step became as small as the last place of t: the solution ~
