@@ -134,7 +134,14 @@ momenta that have one of VALUES, equations, begin with it."
     (make-numerics-controls
      :end end :relative relative :scales scales
      :first-step (let ((step (numerics-wishes-step wishes)))
-                   (unless (eql step 0) (numerics-double step "first_step"))))))
+                   (unless (eql step 0) (numerics-first-step-wanted step))))))
+
+(defun numerics-first-step-wanted (step)
+  (let ((length (numerics-double step "first_step")))
+    (unless (plusp length)
+      (core-error "first_step is a length of time, greater than 0; found ~a"
+                  (core-words (list step))))
+    length))
 
 (defun numerics-guard-routine (program)
   (when (numerics-program-guards program)
