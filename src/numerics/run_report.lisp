@@ -130,3 +130,8 @@ asked for."
                 "~a, which is constant, drifts by ~a of its size, at a tolerance of ~a"
                 (numerics-name-text name) (numerics-short-number drift)
                 (numerics-short-number relative))))))
+
+(defun numerics-warn-of-events (run)
+  (let ((events (numerics-simulation-events run)))
+    (when (and events (numerics-events-vague events))
+      (core-warn-later "the events change too fast along the steps: some zeros may be missing"))))

@@ -41,6 +41,7 @@
          (asked (unless (or stop trouble) (numerics-asked-fields run))))
     (numerics-tell-end run stop trouble)
     (numerics-warn-of-drifts run)
+    (numerics-warn-of-events run)
     (core-report "run" (numerics-report
                         run
                         (numerics-course-fields run (numerics-status-words run stop trouble))

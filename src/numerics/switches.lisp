@@ -71,10 +71,10 @@ where there are none."
 (defun numerics-switch-zeros (switches step)
   "Where arguments vanish within STEP, (share place) in order."
   (let* ((events (numerics-switches-events switches))
-         (zeros (progn (numerics-sample-events events step)
-                       (numerics-begin-events events step)
-                       (loop for (share place) in (numerics-wanted-zeros events step)
+         (zeros (progn (setf (numerics-events-sides events) nil)
+                       (loop for (share place) in (numerics-zeros-of-step events step)
                              unless (= share 0d0) collect (list share place)))))
+    (numerics-sample-events events step)
     (sort (append zeros (loop for (share) in zeros
                               append (numerics-zeros-about events step share)))
           #'< :key #'first)))
