@@ -8,8 +8,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "forms/dynamics"
-                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/decimals"
+                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/constrained" "numerics/decimals"
                 "numerics/events"
                 "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
                 "numerics/back_to_constraints" "numerics/rates_problem" "numerics/routine"
