@@ -40,9 +40,9 @@
 (defun archive-check-option (option value)
   (let ((type (gethash option *core-options*)))
     (unless (or (null type) (archive-option-fits type value))
-      (core-error "the option ~a is ~a, found ~a~@[; did you mean ~a?~]" option
+      (core-error "the option ~a is ~a, found ~:[~a~;\"~a\"~]~@[; did you mean ~a?~]" option
                   (if (consp type) (core-choice type) (cdr (assoc type *archive-option-phrases*)))
-                  (core-words (list value))
+                  (stringp value) (core-words (list value))
                   (and (consp type) (core-nearest (core-words (list value)) type))))))
 
 (defun archive-check-program-form (call)
@@ -184,9 +184,16 @@ neglected in a field."
     (archive-give-all call (archive-numbers-over-values
                             call (loop for equation in options
                                        for name in names
-                                       collect (cons name (caddr equation)))))
+                                       collect (cons name (archive-option-value
+                                                           name (caddr equation))))))
     (archive-check-effects call names))
   (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil)))
+
+(defun archive-option-value (name value)
+  "VALUE of the option NAME; a span of time may begin with the name of time, as among arguments."
+  (if (and (string= name "time") (archive-list-p value) (eq (second value) '$t))
+      (archive-list (cddr value))
+      value))
 
 (defun archive-check-effects (call names)
   "An error for the first of the options NAMES that nothing in this call asks for."

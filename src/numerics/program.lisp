@@ -8,7 +8,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"
-                "algebra/program_record" "forms/rates"))
+                "algebra/program_record" "forms/program_judge" "forms/rates"))
 
 (defstruct numerics-program
   algebra  ; the program in which the elements were made

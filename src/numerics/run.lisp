@@ -1,15 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; A run of M x' = X(t, x): the problem made from the rates with numbers put in, the start, what
 ;;; looks on, and the method. What cannot be run is refused before the first step: a name without a
-;;; value, a start off a constraint or where the equations have no value or divide by a pivot that is
-;;; lost. Look first at numerics-new-run, then at numerics-make-run.
+;;; value, a start off a constraint or where the equations have no value or divide by a pivot that
+;;; is lost. Look first at numerics-new-run, then at numerics-make-run.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "forms/dynamics"
-                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/decimals"
+                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/constrained" "numerics/decimals"
                 "numerics/events"
                 "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
                 "numerics/back_to_constraints" "numerics/rates_problem" "numerics/routine"
@@ -72,9 +71,9 @@
                           (remove '$rates outputs :key #'car)))
              copy))))
 
-(defun numerics-new-run (rates values start span wishes)
-  "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES were
-put in, pairs (name . element)."
+(defun numerics-new-run (rates values start span wishes &key (how :auto))
+  "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES
+were put in, pairs (name . element). HOW as of numerics-problem-of."
   (numerics-check-names rates (numerics-run-elements rates))
   (destructuring-bind (from to)
       (mapcar (lambda (e) (numerics-double e "an end of the span")) (numerics-read-span span))
@@ -83,7 +82,7 @@ put in, pairs (name . element)."
                  :rates rates :values values :wishes wishes :program program
                  :moment (numerics-moment from)
                  :state (numerics-start-vector rates start)
-                 :problem (numerics-problem-of program :jacobian nil))))
+                 :problem (numerics-problem-of program :jacobian nil :how how))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
             (numerics-simulation-constraints run) (numerics-constraints-of rates program))
@@ -91,6 +90,31 @@ put in, pairs (name . element)."
       (setf (numerics-simulation-rows run) (numerics-wished-rows run from to)
             (numerics-simulation-events run) (numerics-wished-events run))
       run)))
+
+(defun numerics-run-again (run controls wishes)
+  "A run of the same from the start, with CONTROLS and WISHES of its own, as if nothing had run yet."
+  (let ((again (copy-numerics-simulation run)))
+    (setf (numerics-simulation-controls again) controls
+          (numerics-simulation-wishes again) wishes
+          (numerics-simulation-drifts again) nil
+          (numerics-simulation-drifting again) nil
+          (numerics-simulation-outcome again) nil
+          (numerics-simulation-lost again) nil
+          (numerics-simulation-fault again) nil
+          (numerics-simulation-constraints again)
+          (numerics-fresh-constraints (numerics-simulation-constraints run))
+          (numerics-simulation-rows again)
+          (numerics-wished-rows again (aref (numerics-simulation-moment run) 0)
+                                (numerics-controls-end controls))
+          (numerics-simulation-events again) (numerics-wished-events again))
+    again))
+
+(defun numerics-fresh-constraints (constraints)
+  "CONSTRAINTS as they were before a run, with the same places to work in."
+  (when constraints
+    (let ((copy (copy-numerics-constraints constraints)))
+      (setf (numerics-constraints-singular copy) nil (numerics-constraints-largest copy) 0d0)
+      copy)))
 
 (defun numerics-start-values (rates start values)
   "The exact start values of the states of RATES; velocities and momenta that are not named are 0,
@@ -136,9 +160,10 @@ momenta that have one of VALUES, equations, begin with it."
 ;;; What looks on
 
 (defun numerics-wished-rows (run from to)
-  (numerics-new-rows (numerics-read-points (numerics-wishes-points (numerics-simulation-wishes run)) from to)
-                     (numerics-simulation-moment run) (numerics-simulation-state run)
-                     (numerics-back-to-constraints run)))
+  (let ((points (numerics-wishes-points (numerics-simulation-wishes run))))
+    (numerics-new-rows (numerics-read-points points from to)
+                       (numerics-simulation-moment run) (numerics-simulation-state run)
+                       (numerics-back-to-constraints run))))
 
 (defun numerics-back-to-constraints (run)
   "The function (moment x) that brings a state between two steps back to the constraints, or nil."

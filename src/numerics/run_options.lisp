@@ -124,8 +124,8 @@ methods with a fixed one, or 0; ESTIMATE and CONDITIONING: whether these are wan
 (defun numerics-velocity-p (name) (and (consp name) (eq (caar name) '%derivative)))
 
 (defun numerics-read-start (start names default)
-  "The list of exact start values of NAMES from the equations START; DEFAULT, a function of the name,
-gives those that are not named."
+  "The list of exact start values of NAMES from the equations START; DEFAULT, a function of the
+name, gives those that are not named."
   (dolist (equation (numerics-items start))
     (unless (and (consp equation) (eq (caar equation) 'mequal))
       (core-error "the start is a list such as [theta = 1, 'diff(theta,t) = 0], found ~a"

@@ -1,14 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a run says of itself beside its rows: how it ended, what it cost, how far its integrals drift
-;;; and its constraints are off; and the warning where a drift is out of proportion. See
+;;; What a run says of itself beside its rows: how it ended, what it cost, how far its integrals
+;;; drift and its constraints are off; and the warning where a drift is out of proportion. See
 ;;; numerics-report first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/decimals"
-                "numerics/drifts" "numerics/events" "numerics/problem" "numerics/run"
-                "numerics/run_options"))
+  (core-require "algebra/program_record" "forms/rates" "numerics/back_to_constraints"
+                "numerics/decimals" "numerics/drifts" "numerics/events" "numerics/problem"
+                "numerics/run" "numerics/run_options"))
 
 (defun numerics-rounded-seconds (seconds)
   "SECONDS to the microsecond."
@@ -130,3 +130,8 @@ asked for."
                 "~a, which is constant, drifts by ~a of its size, at a tolerance of ~a"
                 (numerics-name-text name) (numerics-short-number drift)
                 (numerics-short-number relative))))))
+
+(defun numerics-warn-of-events (run)
+  (let ((events (numerics-simulation-events run)))
+    (when (and events (numerics-events-vague events))
+      (core-warn-later "the events change too fast along the steps: some zeros may be missing"))))
