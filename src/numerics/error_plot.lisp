@@ -70,13 +70,13 @@
 
 (defun numerics-floor-items (floors range)
   "Lines across RANGE for FLOORS, (text value type of line)."
-  (cons (numerics-option '$point_size 0)
-        (loop for (text value type) in floors
-              when value
-                append (list (numerics-option '$color "#222222") (numerics-option '$line_type type)
-                             (numerics-option '$key text)
-                             (numerics-points (list (list (first range) value)
-                                                    (list (second range) value)))))))
+  (list* (numerics-option '$point_size 0) (numerics-option '$line_width 2)
+         (loop for (text value type) in floors
+               when value
+                 append (list (numerics-option '$color "#222222") (numerics-option '$line_type type)
+                              (numerics-option '$key text)
+                              (numerics-points (list (list (first range) value)
+                                                     (list (second range) value)))))))
 
 (defun numerics-decades (values)
   "The decades around VALUES."
