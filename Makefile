@@ -13,11 +13,14 @@ test:
 bench:
 	@bench/run
 
-# Chains by SymPy, symengine, CasADi (by pip into the user's cache) and by us, side by side. Under ten minutes.
+# Chains by SymPy, symengine, CasADi (by pip into the user's cache) and by us, side by side, under ten minutes; then
+# bench-numerics. doc/bench.md holds what both print.
 bench-peers:
 	@bench/peers/run
+	@bench/numerics/run
 
-# Runs by us and by SciPy, heyoka, SUNDIALS, Pinocchio and gcc (into the user's cache), side by side. Under ten minutes.
+# Runs by us and by SciPy, heyoka, RADAU5, SUNDIALS, ngspice, Pinocchio and gcc (into the user's cache), side by side. About
+# half an hour.
 bench-numerics:
 	@bench/numerics/run
 
