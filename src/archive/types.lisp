@@ -27,7 +27,7 @@
     (:vector archive-as-vector "a list of three expressions")
     (:vanishing archive-as-vanishing "a list of equations, such as [x^2 + y^2 - l^2 = 0]")
     (:rates archive-as-rates
-            "a list of equations solved for the velocities, such as [p' = q, q' = -p]")
+            "a list of equations solved for the velocities, such as [p' = q, q' = -p], or of 0 = ..")
     (:field archive-as-field "none, constant or newton")
     (:sign archive-as-sign "passive or generator")
     (:parent archive-as-parent "0, the number of a body, or the name of a frame")
@@ -305,7 +305,14 @@ those who compute with it."
       (archive-unfit "~a is not a velocity" (archive-value-shown value))))
 
 (defun archive-as-rates (value)
-  (archive-checked-equations value #'archive-a-velocity #'archive-an-expression))
+  "Equations x' = X, and algebraic ones, 0 = g."
+  (flet ((algebraic-p (item) (and (archive-equation-p item) (eql (second item) 0))))
+    (archive-checked-equations (archive-list (remove-if #'algebraic-p (archive-items value)))
+                               #'archive-a-velocity #'archive-an-expression)
+    (archive-each (lambda (item)
+                    (when (algebraic-p item) (archive-an-expression (third item)))
+                    item)
+                  value)))
 
 (defun archive-as-vanishing (value)
   "Equations e = 0; f = g is f - g = 0."
