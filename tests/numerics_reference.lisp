@@ -34,7 +34,8 @@
                                             :most-steps (or (first more) 5000)))))
     (test-list (and (numerics-reference-state reference)
                     (test-numbers (numerics-reference-state reference)))
-               (numerics-reference-floor reference)
+               (and (numerics-reference-state reference)
+                    (numerics-reference-floor reference (test-vector (mapcar (constantly 1) (cdr start)))))
                (numerics-reference-method reference))))
 
 (defun $test_problem_of_program (names rates)

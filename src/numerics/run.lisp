@@ -79,9 +79,9 @@
                           (remove '$rates outputs :key #'car)))
              copy))))
 
-(defun numerics-new-run (rates values start span wishes)
+(defun numerics-new-run (rates values start span wishes &key (how :auto))
   "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES were
-put in, pairs (name . element)."
+put in, pairs (name . element). HOW as of numerics-problem-of."
   (numerics-check-names rates (numerics-run-elements rates))
   (destructuring-bind (from to)
       (mapcar (lambda (e) (numerics-double e "an end of the span")) (numerics-read-span span))
@@ -90,7 +90,7 @@ put in, pairs (name . element)."
                  :rates rates :values values :wishes wishes :program program
                  :moment (numerics-moment from)
                  :state (numerics-start-vector rates start)
-                 :problem (numerics-problem-of program :jacobian nil))))
+                 :problem (numerics-problem-of program :jacobian nil :how how))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
             (numerics-simulation-constraints run) (numerics-constraints-of rates program))
@@ -98,6 +98,31 @@ put in, pairs (name . element)."
       (setf (numerics-simulation-rows run) (numerics-wished-rows run from to)
             (numerics-simulation-events run) (numerics-wished-events run))
       run)))
+
+(defun numerics-run-again (run controls wishes)
+  "A run of the same from the start, with CONTROLS and WISHES of its own, as if nothing had run yet."
+  (let ((again (copy-numerics-simulation run)))
+    (setf (numerics-simulation-controls again) controls
+          (numerics-simulation-wishes again) wishes
+          (numerics-simulation-drifts again) nil
+          (numerics-simulation-drifting again) nil
+          (numerics-simulation-outcome again) nil
+          (numerics-simulation-lost again) nil
+          (numerics-simulation-fault again) nil
+          (numerics-simulation-constraints again)
+          (numerics-fresh-constraints (numerics-simulation-constraints run))
+          (numerics-simulation-rows again)
+          (numerics-wished-rows again (aref (numerics-simulation-moment run) 0)
+                                (numerics-controls-end controls))
+          (numerics-simulation-events again) (numerics-wished-events again))
+    again))
+
+(defun numerics-fresh-constraints (constraints)
+  "CONSTRAINTS as they were before a run, with the same places to work in."
+  (when constraints
+    (let ((copy (copy-numerics-constraints constraints)))
+      (setf (numerics-constraints-singular copy) nil (numerics-constraints-largest copy) 0d0)
+      copy)))
 
 (defun numerics-start-values (rates start values)
   "The exact start values of the states of RATES; velocities and momenta that are not named are 0,

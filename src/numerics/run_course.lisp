@@ -132,21 +132,24 @@ for others a part of an observer, or nil."
 (defparameter *numerics-share-of-time* 9/10
   "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
 
-(defun numerics-carry-out (run)
-  "Makes the RUN; the sentence of the stop where its time was up or the person interrupted it."
+(defun numerics-within-share (function) (core-within *numerics-share-of-time* function))
+
+(defun numerics-carry-out (run &optional (within #'numerics-within-share))
+  "Makes the RUN; two values: the sentence of the stop where its time was up or the person interrupted
+it, and whether it was the latter. WITHIN calls a function within a time, as core-within."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
          (began (numerics-seconds)) (compiled *numerics-compile-seconds*) (outcome nil))
     (setf (numerics-simulation-began run) (numerics-working-seconds))
     (multiple-value-bind (value stop)
-        (core-within *numerics-share-of-time*
-                     (lambda ()
-                       (numerics-interruptible
-                         (numerics-with-masked-traps
-                           (setq outcome (funcall method (numerics-simulation-problem run)
-                                                  (numerics-simulation-controls run)
-                                                  (copy-seq (numerics-simulation-moment run))
-                                                  (copy-seq (numerics-simulation-state run))
-                                                  observer))))))
+        (funcall within
+                 (lambda ()
+                   (numerics-interruptible
+                     (numerics-with-masked-traps
+                       (setq outcome (funcall method (numerics-simulation-problem run)
+                                              (numerics-simulation-controls run)
+                                              (copy-seq (numerics-simulation-moment run))
+                                              (copy-seq (numerics-simulation-state run))
+                                              observer))))))
       (when (eq value :interrupted)
         (setq stop (format nil "interrupted~@[ at ~a~]" *core-doing*)))
       (let ((compilation (- *numerics-compile-seconds* compiled)))
@@ -154,7 +157,7 @@ for others a part of an observer, or nil."
               (numerics-simulation-compiled-on-the-way run) compilation
               (numerics-simulation-outcome run) outcome))
       (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))
-      stop)))
+      (values stop (eq value :interrupted)))))
 
 ;;; How it ended
 

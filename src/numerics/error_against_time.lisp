@@ -1,0 +1,147 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; ErrorAgainstTime: for a system of one's own what each method reaches at each tolerance, and what it
+;;; costs; errors are those that were made, by a reference, never the tolerance (diagrams of work and
+;;; precision: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, II.10).
+;;; Look first at $numerics_error_against_time.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_record" "core/nearest" "forms/rates" "numerics/decimals"
+                "numerics/problem" "numerics/reference" "numerics/run" "numerics/run_course"
+                "numerics/run_options" "numerics/run_report" "numerics/trial"
+                "numerics/trial_attempts" "numerics/trial_reference"))
+
+(defparameter *numerics-row-columns*
+  '($method $tolerance $error $largest $digits $drifts $rhs $jacobians $factorisations $steps
+    $rejected $seconds $derivation_seconds $compile_seconds $status $quartiles))
+
+;;; What is asked for
+
+(defun numerics-read-methods (methods)
+  "The list of symbols in the option METHODS."
+  (let ((words (mapcar #'car *numerics-methods*)) (items (numerics-items methods)))
+    (unless items
+      (core-error "methods is a list such as [dop853, radau], found ~a"
+                  (core-words (list methods))))
+    (dolist (item items (remove-duplicates items :from-end t))
+      (unless (member item words)
+        (let ((spellings (mapcar #'core-spelling words)) (found (core-words (list item))))
+          (core-error "a method is ~a, found ~a~@[; did you mean ~a?~]" (core-choice spellings)
+                      found (core-nearest found spellings)))))))
+
+(defun numerics-read-tolerances (tolerances trial)
+  "The list TOLERANCES from the loosest to the tightest."
+  (let ((items (numerics-items tolerances))
+        (names (forms-rates-states (numerics-simulation-rates (numerics-trial-run trial)))))
+    (unless items
+      (core-error "tolerances is a list such as [1e-4, 1e-8], found ~a"
+                  (core-words (list tolerances))))
+    (stable-sort (copy-list items) #'>
+                 :key (lambda (item) (values (numerics-read-tolerance item names))))))
+
+;;; The attempts
+
+(defun numerics-skipped-attempt (method tolerance failed)
+  "The attempt after FAILED, one of the same method at a looser tolerance."
+  (make-numerics-attempt
+   :method method :tolerance tolerance
+   :status (format nil "skipped: at ~a ~a" (core-words (list (numerics-attempt-tolerance failed)))
+                   (numerics-attempt-status failed))))
+
+(defun numerics-attempts-by (contest method tolerances note)
+  "Measures METHOD at TOLERANCES, and calls NOTE with each attempt; what is tighter than a tolerance at which
+it failed is skipped."
+  (let ((failed nil))
+    (dolist (tolerance tolerances)
+      (core-progress "~a at ~a" (core-spelling method) (core-words (list tolerance)))
+      (let ((attempt (if failed
+                      (numerics-skipped-attempt method tolerance failed)
+                      (numerics-measured-attempt contest method tolerance))))
+        (unless (or failed (numerics-attempt-reached attempt)) (setq failed attempt))
+        (funcall note attempt)
+        (when (numerics-attempt-interrupted attempt) (throw 'numerics-interrupted nil))))))
+
+(defun numerics-all-attempts (contest methods tolerances)
+  "Two values: the attempts, and the sentence of the stop where the time was up or the person interrupted."
+  (let ((attempts '()) (stop nil))
+    (multiple-value-bind (value late)
+        (numerics-within-share
+         (lambda ()
+           (catch 'numerics-interrupted
+             (dolist (method methods t)
+               (numerics-attempts-by contest method tolerances
+                                         (lambda (attempt) (push attempt attempts)))))))
+      (setq stop (or late (and (null value) "interrupted"))))
+    (values (reverse attempts) stop)))
+
+;;; The record
+
+(defun numerics-attempt-counts (attempt)
+  "rhs, jacobians, factorisations, steps, rejected"
+  (let ((run (numerics-attempt-run attempt)))
+    (if run
+        (let ((counts (numerics-controls-counts (numerics-simulation-controls run))))
+          (list (numerics-counts-rates counts) (numerics-counts-jacobians counts)
+                (numerics-counts-factorisations counts) (numerics-counts-steps counts)
+                (+ (numerics-counts-rejected counts) (numerics-counts-not-finite counts))))
+        (list nil nil nil nil nil))))
+
+(defun numerics-digits-of-error (error)
+  (and error (/ (round (* -10 (log (max error 1d-17) 10))) 10d0)))
+
+(defun numerics-attempt-row (contest attempt floor)
+  "The row of ATTEMPT, in the order of the columns."
+  (let* ((trial (numerics-contest-trial contest)) (error (numerics-attempt-error attempt))
+         (seconds (numerics-attempt-seconds attempt)))
+    (flet ((few (x) (and x (numerics-few-digits x)))
+           (quartile (share) (and seconds (numerics-rounded-seconds
+                                           (numerics-quantile seconds share)))))
+      (apply #'algebra-list
+             (append (list (numerics-attempt-method attempt) (numerics-attempt-tolerance attempt) (few error)
+                           (few (numerics-attempt-largest attempt)) (numerics-digits-of-error error)
+                           (cons '(mlist simp)
+                                 (loop for (name . drift) in (numerics-attempt-drifts attempt)
+                                       collect (algebra-field name (few drift)))))
+                     (numerics-attempt-counts attempt)
+                     (list (quartile 1/2)
+                           (numerics-rounded-seconds (numerics-trial-derivation-seconds trial))
+                           (numerics-rounded-seconds (numerics-trial-compile-seconds trial))
+                           (numerics-attempt-words attempt floor)
+                           (algebra-list (quartile 1/4) (quartile 3/4))))))))
+
+(defun numerics-attempt-words (attempt floor)
+  "How ATTEMPT ended, and whether its error says more than the FLOOR of the reference."
+  (let ((error (numerics-attempt-error attempt)))
+    (cond ((null (numerics-attempt-reached attempt)) (numerics-attempt-status attempt))
+          ((null error) "reached the end; no reference")
+          ((<= error floor) "reached the end; below the floor of the reference")
+          (t "reached the end"))))
+
+(defun $numerics_error_against_time (trial reference methods tolerances seconds)
+  "The record of TRIAL against REFERENCE, as $numerics_trial_reference makes it; an attempt may
+take SECONDS."
+  (let* ((methods (numerics-read-methods methods))
+         (tolerances (numerics-read-tolerances tolerances trial))
+         (scales (numerics-trial-scales trial (first tolerances)))
+         (reference (numerics-read-reference reference))
+         (floor (and (numerics-reference-rows reference)
+                     (numerics-reference-floor reference scales)))
+         (conditioning (numerics-trial-conditioning trial))
+         (contest (make-numerics-contest :trial trial :reference reference :scales scales
+                                         :seconds (numerics-double seconds "cell"))))
+    (multiple-value-bind (attempts stop) (numerics-all-attempts contest methods tolerances)
+      (when stop (core-partial "~a; the rows so far are kept as a part" stop))
+      (flet ((few (x) (and x (numerics-few-digits x))))
+        (algebra-list
+         (algebra-field '$reference
+                        (algebra-list
+                         (algebra-field '$method (numerics-reference-method reference))
+                         (algebra-field '$digits (numerics-reference-digits reference))
+                         (algebra-field '$floor (few floor))))
+         (algebra-field '$conditioning (few conditioning))
+         (algebra-field '$columns (cons '(mlist simp) *numerics-row-columns*))
+         (algebra-field '$rows
+                        (cons '(mlist simp)
+                              (mapcar (lambda (attempt) (numerics-attempt-row contest attempt floor))
+                                      attempts))))))))

@@ -1,0 +1,120 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; One attempt, a line of a table of errors against run time: a bare run, repeated where it is short, whose end
+;;; is compared with the reference; then one that looks at 100 points of its dense output and at the
+;;; integrals. What fails or takes too long says why in words. See numerics-measured-attempt first.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "numerics/decimals" "numerics/observers" "numerics/problem"
+                "numerics/program" "numerics/reference" "numerics/run" "numerics/run_course"
+                "numerics/run_integrals" "numerics/run_report" "numerics/step_control"
+                "numerics/trial"))
+
+(defstruct numerics-contest
+  trial reference scales       ; of the norm in which errors are measured
+  seconds)                     ; that an attempt may take
+
+(defstruct numerics-attempt
+  method tolerance
+  (run nil)                    ; the first bare run
+  (seconds '())                ; of all, sorted
+  (error nil) (largest nil) (drifts '())
+  (status nil)                 ; a sentence
+  (reached nil)                ; whether it came to the end
+  (interrupted nil))
+
+(defun numerics-measured-attempt (contest method tolerance)
+  "The attempt of METHOD at TOLERANCE."
+  (let* ((attempt (make-numerics-attempt :method method :tolerance tolerance))
+         (refusal (numerics-refusal
+                   (lambda ()
+                     (when (numerics-make-bare-run contest attempt)
+                       (numerics-repeat-bare-run contest attempt)
+                       (numerics-look-at-attempt contest attempt))))))
+    (when refusal
+      (setf (numerics-attempt-status attempt) refusal
+            (numerics-attempt-reached attempt) nil))
+    attempt))
+
+(defun numerics-refusal (function)
+  "Calls FUNCTION; the text of the error that ends it, without the name of what runs, or nil."
+  (let ((prefix (core-named "")) (text (nth-value 1 (core-caught function))))
+    (if (and text (eql (search prefix text) 0)) (subseq text (length prefix)) text)))
+
+(defun numerics-limited (seconds)
+  (lambda (function) (core-timed seconds function)))
+
+;;; The bare run
+
+(defun numerics-make-bare-run (contest attempt)
+  "Whether the bare run of ATTEMPT comes to the end within its time."
+  (let ((run (numerics-bare-run (numerics-contest-trial contest) (numerics-attempt-method attempt)
+                                (numerics-attempt-tolerance attempt))))
+    (setf (numerics-attempt-run attempt) run)
+    (multiple-value-bind (stop interrupted)
+        (numerics-carry-out run (numerics-limited (numerics-contest-seconds contest)))
+      (setf (numerics-attempt-seconds attempt) (list (numerics-simulation-seconds run))
+            (numerics-attempt-interrupted attempt) interrupted)
+      (let ((trouble (cond (interrupted stop)
+                           (stop (format nil "more than ~a s"
+                                         (numerics-short-number (numerics-contest-seconds contest))))
+                           (t (numerics-trouble run)))))
+        (setf (numerics-attempt-status attempt) (or trouble "reached the end")
+              (numerics-attempt-reached attempt) (null trouble))))))
+
+(defparameter *numerics-repeated-seconds* 0.2d0 "Shorter runs are repeated.")
+
+(defun numerics-repetitions (seconds)
+  "How often a run of SECONDS is repeated: for about half a second, from 5 to 21 times."
+  (if (< seconds *numerics-repeated-seconds*)
+      (max 5 (min 21 (floor 0.5d0 (max seconds 1d-6))))
+      0))
+
+(defun numerics-repeat-bare-run (contest attempt)
+  "The first of runs that are repeated counts for nothing: memory was still cold."
+  (let ((times (numerics-repetitions (first (numerics-attempt-seconds attempt)))))
+    (when (plusp times)
+      (setf (numerics-attempt-seconds attempt)
+            (sort (loop repeat times collect (numerics-seconds-again contest attempt)) #'<)))))
+
+(defun numerics-seconds-again (contest attempt)
+  (let ((run (numerics-bare-run (numerics-contest-trial contest) (numerics-attempt-method attempt)
+                                (numerics-attempt-tolerance attempt))))
+    (numerics-carry-out run)
+    (numerics-simulation-seconds run)))
+
+(defun numerics-quantile (sorted share)
+  "Of the list SORTED, between its members by their distance."
+  (let ((place (* share (1- (length sorted)))))
+    (multiple-value-bind (k rest) (floor place)
+      (let ((low (nth k sorted)) (high (or (nth (1+ k) sorted) (nth k sorted))))
+        (+ low (* rest (- high low)))))))
+
+;;; What the run was worth
+
+(defun numerics-look-at-attempt (contest attempt)
+  "Compares with the reference at the end and at 100 points, and looks at the integrals."
+  (let ((run (numerics-watched-run (numerics-contest-trial contest) (numerics-attempt-method attempt)
+                                   (numerics-attempt-tolerance attempt))))
+    (with-numerics-program (numerics-simulation-program run)
+      (numerics-watch-integrals run))
+    (numerics-carry-out run)
+    (setf (numerics-attempt-drifts attempt) (numerics-named-drifts run))
+    (numerics-compare-attempt contest attempt run)))
+
+(defun numerics-compare-attempt (contest attempt run)
+  (let ((rows (numerics-reference-rows (numerics-contest-reference contest)))
+        (scales (numerics-contest-scales contest)) (found (numerics-simulation-rows run)))
+    (flet ((distance (state row)
+             (numerics-distance state (coerce (rest row) 'numerics-vector) scales)))
+      (when rows
+        (setf (numerics-attempt-error attempt)
+              (distance (numerics-outcome-state (numerics-simulation-outcome
+                                                 (numerics-attempt-run attempt)))
+                        (first (last rows)))
+              (numerics-attempt-largest attempt)
+              (max (numerics-attempt-error attempt)
+                   (loop for row in rows
+                         for k below (numerics-rows-count found)
+                         maximize (distance (numerics-row-state found k) row))))))))

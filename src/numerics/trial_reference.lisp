@@ -1,0 +1,63 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The reference of a trial at its 101 points, and how well double-float numbers can know its end.
+;;; Constraints are held in the reference as they are in runs: series are taken only where the start
+;;; holds them to all digits. Look first at $numerics_trial_reference.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_record" "numerics/automatic" "numerics/back_to_constraints"
+                "numerics/conditioning" "numerics/decimals" "numerics/native"
+                "numerics/observers" "numerics/problem" "numerics/program" "numerics/reference"
+                "numerics/run" "numerics/run_course" "numerics/run_digits" "numerics/trial"))
+
+(defun numerics-reference-observer (run)
+  "What looks on at the steps of a reference: back to the constraints of RUN, and progress."
+  (let ((constraints (numerics-simulation-constraints run)))
+    (numerics-observer
+     (append (and constraints (list (numerics-projection-part constraints)))
+             (list (numerics-progress-part (numerics-simulation-controls run)))))))
+
+(defun $numerics_trial_reference (trial)
+  "Record: method, digits, errors of each state, rows [t, x1, ..], exact or to so many digits."
+  (let* ((run (numerics-run-of-trial trial '$radau 1d-8 *numerics-trial-points*))
+         (program (numerics-simulation-program run)) (start (numerics-trial-start trial))
+         (times (numerics-exact-times *numerics-trial-points* (numerics-trial-ends trial))))
+    (core-progress "making a reference")
+    (with-numerics-program program
+      (numerics-run-switch-part run)
+      (numerics-reference-record
+       (numerics-with-masked-traps
+         (numerics-reference-of (numerics-simulation-problem run)
+                                (numerics-simulation-controls run) start times
+                                :observer (numerics-reference-observer run)))))))
+
+(defun numerics-reference-record (reference)
+  (flet ((list-of (items) (cons '(mlist simp) items)))
+    (algebra-list
+     (algebra-field '$method (numerics-reference-method reference))
+     (algebra-field '$digits (let ((digits (numerics-reference-digits reference)))
+                               (and digits (numerics-few-digits (coerce digits 'double-float)))))
+     (algebra-field '$errors
+                    (list-of (map 'list #'numerics-few-digits (numerics-reference-errors reference))))
+     (algebra-field '$rows (list-of (mapcar #'list-of (numerics-reference-rows reference)))))))
+
+(defun numerics-read-reference (record)
+  "The reference that RECORD describes."
+  (flet ((items (key) (cdr ($core_get record key))))
+    (make-numerics-reference
+     :method ($core_get record '$method) :digits ($core_get record '$digits)
+     :errors (map 'numerics-vector #'numerics-double-of-exact (items '$errors))
+     :rows (mapcar (lambda (row) (mapcar #'numerics-double-of-exact (cdr row))) (items '$rows)))))
+
+(defun numerics-trial-conditioning (trial)
+  "The floor of double-float numbers at the end of TRIAL; nil where a run did not reach it in time."
+  (let ((run (numerics-trial-run trial)))
+    (core-progress "computing the conditioning")
+    (numerics-within-share
+     (lambda ()
+       (numerics-with-masked-traps
+         (values (numerics-conditioning #'numerics-automatic (numerics-simulation-problem run)
+                                        (numerics-simulation-controls run)
+                                        (numerics-simulation-moment run)
+                                        (numerics-simulation-state run))))))))
