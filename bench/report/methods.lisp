@@ -96,10 +96,10 @@
             ($core_get result '$title) (report-stiff-p result) quickest (report-auto-words result)
             (report-failing-words result) (report-least-drift-words result))))
 
-(defun $report_methods (file head results)
-  "Writes FILE from the text HEAD and the list RESULTS."
+(defun $report_methods (file head machine results)
+  "Writes FILE from the file HEAD, the text MACHINE and the list RESULTS."
   (with-open-file (out file :direction :output :if-exists :supersede)
-    (format out "~a" head)
+    (report-copy-head out head machine)
     (report-quickest out (cdr results))
     (format out "~%## How far each is behind the quickest~%~%Over all scenes and the errors above: how many times it was asked ~
                  for an error that some method reaches, and reached it; was quickest, within 1.5 and 5 times the quickest; ~

@@ -54,7 +54,7 @@
 (defun report-row-texts (row)
   (flet ((part (column) (report-entry row column)))
     (let ((drift (report-worst-drift row)))
-      (list (report-word (part '$method)) (report-short (part '$tolerance)) (report-short (part '$error))
+      (list (report-word (part '$method)) (report-short (report-relative row)) (report-short (part '$error))
             (report-short (part '$largest)) (format nil "~a" (or (part '$digits) ""))
             (if drift (format nil "~a (~a)" (report-short (cdr drift)) (report-word (car drift))) "")
             (part '$rhs) (part '$jacobians) (part '$factorisations) (part '$steps) (part '$rejected)
@@ -66,7 +66,7 @@
     (dolist (method (report-methods result))
       (let ((row (find method failed :key (lambda (row) (report-entry row '$method)))))
         (when row
-          (format out "* ~a from ~a on: ~a~%" (report-word method) (report-short (report-entry row '$tolerance))
+          (format out "* ~a from ~a on: ~a~%" (report-word method) (report-short (report-relative row))
                   (report-entry row '$status)))))))
 
 (defun report-scene (out result)
@@ -83,11 +83,21 @@
                   (mapcar #'report-row-texts (remove-if-not #'report-reached-p (report-rows result))))
     (report-failures out result)))
 
-(defun $report_numbers (file head results)
-  "Writes FILE from the text HEAD and the list RESULTS."
+(defun report-copy-head (out head machine)
+  "The lines of the file HEAD, its title first, the lines MACHINE under it."
+  (with-open-file (in head)
+    (loop for line = (read-line in nil)
+          for first = t then nil
+          while line
+          do (format out "~a~%" line)
+             (when first (format out "~%~a~%" machine)))))
+
+(defun $report_numbers (file head machine results long)
+  "Writes FILE from the file HEAD, the text MACHINE and the lists RESULTS and, of long runs, LONG."
   (with-open-file (out file :direction :output :if-exists :supersede)
-    (format out "~a" head)
+    (report-copy-head out head machine)
     (report-left-out out (cdr results))
     (format out "~%## Errors against time~%")
-    (dolist (result (cdr results)) (report-scene out result)))
+    (dolist (result (cdr results)) (report-scene out result))
+    (report-long-runs out (cdr long)))
   '$done)

@@ -12,6 +12,11 @@
 
 (defun report-entry (row column) (nth (position column *report-columns*) (cdr row)))
 
+(defun report-relative (row)
+  "Its tolerance, of a list the relative one."
+  (let ((tolerance (report-entry row '$tolerance)))
+    (if (consp tolerance) (second tolerance) tolerance)))
+
 (defun report-reached-p (row) (numberp (report-entry row '$error)))
 
 (defun report-methods (result)

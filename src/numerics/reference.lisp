@@ -19,8 +19,11 @@
   errors ; of each state, at most about, a vector
   rows)  ; lists (time . states); nil where nothing could be had
 
-(defun numerics-reference-of (problem controls start times &key (digits 20) (most-steps 5000)
-                                                             (observer (constantly nil)))
+(defparameter *numerics-most-series-steps* 5000)
+
+(defun numerics-reference-of (problem controls start times
+                              &key (digits 20) (most-steps *numerics-most-series-steps*)
+                                (observer (constantly nil)))
   "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the
 exact TIMES; the last of these is the end. OBSERVER looks on at the steps in double-float numbers."
   (or (numerics-series-reference problem controls start times digits most-steps)

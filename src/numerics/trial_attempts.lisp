@@ -116,5 +116,11 @@
               (numerics-attempt-largest attempt)
               (max (numerics-attempt-error attempt)
                    (loop for row in rows
-                         for k below (numerics-rows-count found)
+                         for k = (numerics-row-about found (first row))
                          maximize (distance (numerics-row-state found k) row))))))))
+
+(defun numerics-row-about (rows time)
+  "The number of that one of ROWS, which are evenly spaced, at TIME: a reference may have fewer."
+  (let* ((last (1- (numerics-rows-count rows))) (numbers (numerics-rows-numbers rows))
+         (start (aref numbers 0)) (end (aref numbers (* last (numerics-rows-width rows)))))
+    (round (* last (/ (- time start) (- end start))))))
