@@ -69,7 +69,7 @@
 (defvar *archive-decimals* '() "Decimals found in a call, with their fractions, newest first.")
 
 (defun archive-floating-key-p (key)
-  (or (eq key $values) (member key '($start $time $limit $tolerance))))
+  (or (eq key $values) (member key '($start $time $limit $tolerance $tolerances $cell))))
 
 (defun archive-with-parts (e parts)
   "E with other PARTS, simplified where these are numbers, sums, products, powers or functions."

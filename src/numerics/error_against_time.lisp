@@ -37,16 +37,30 @@
     (unless items
       (core-error "tolerances is a list such as [1e-4, 1e-8], found ~a"
                   (core-words (list tolerances))))
-    (stable-sort (copy-list items) #'>
-                 :key (lambda (item) (values (numerics-read-tolerance item names))))))
+    (mapcar #'numerics-tolerance-as-told
+            (stable-sort (copy-list items) #'>
+                         :key (lambda (item) (values (numerics-read-tolerance item names)))))))
 
 ;;; The attempts
+
+(defun numerics-tolerance-as-told (tolerance)
+  "TOLERANCE with double-float numbers."
+  (if (mnump tolerance)
+      (numerics-double tolerance "tolerance")
+      (cons '(mlist simp) (mapcar #'numerics-tolerance-as-told (cdr tolerance)))))
+
+(defun numerics-tolerance-text (tolerance)
+  "TOLERANCE as a person writes it."
+  (if (numberp tolerance)
+      (numerics-short-number tolerance)
+      (format nil "[~{~a~^, ~}]" (mapcar #'numerics-tolerance-text (cdr tolerance)))))
 
 (defun numerics-skipped-attempt (method tolerance failed)
   "The attempt after FAILED, one of the same method at a looser tolerance."
   (make-numerics-attempt
    :method method :tolerance tolerance
-   :status (format nil "skipped: at ~a ~a" (core-words (list (numerics-attempt-tolerance failed)))
+   :status (format nil "skipped: at ~a ~a"
+                   (numerics-tolerance-text (numerics-attempt-tolerance failed))
                    (numerics-attempt-status failed))))
 
 (defun numerics-attempts-by (contest method tolerances note)
@@ -54,7 +68,7 @@
 it failed is skipped."
   (let ((failed nil))
     (dolist (tolerance tolerances)
-      (core-progress "~a at ~a" (core-spelling method) (core-words (list tolerance)))
+      (core-progress "~a at ~a" (core-spelling method) (numerics-tolerance-text tolerance))
       (let ((attempt (if failed
                       (numerics-skipped-attempt method tolerance failed)
                       (numerics-measured-attempt contest method tolerance))))

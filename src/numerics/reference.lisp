@@ -17,7 +17,7 @@
   method ; a sentence
   digits ; to which two runs agree, about, at all times
   errors ; of each state, at most about, a vector
-  rows)  ; lists (time . states); nil where nothing could be had
+  rows)  ; lists (time . states) of double-float numbers; nil where nothing could be had
 
 (defparameter *numerics-most-series-steps* 5000)
 
@@ -39,7 +39,7 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
         maximize (loop for x in state
                        for error across (numerics-reference-errors reference)
                        for scale across scales
-                       maximize (/ error (numerics-scale (numerics-double-of-exact x) 0d0 scale)))
+                       maximize (/ error (numerics-scale x 0d0 scale)))
           into largest
         finally (return (max numerics-unit-roundoff largest))))
 
@@ -48,24 +48,26 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
 (defparameter *numerics-series-seconds* 20 "No longer series are tried.")
 
 (defun numerics-series-reference (problem controls start times digits most-steps)
-  "The reference by Taylor series, nil where they do not reach the end in this time."
-  (let* ((program (numerics-problem-program problem))
-         (outcome (and program
-                       (core-within *numerics-series-seconds*
-                                    (lambda ()
-                                      (numerics-taylor program start times digits
-                                                       :scales (numerics-rational-scales
-                                                                controls (length start))
-                                                       :most-steps most-steps))))))
+  "The reference by Taylor series, nil where they do not reach the end in this time, or cannot begin."
+  (let ((outcome (numerics-series-outcome problem controls start times digits most-steps)))
     (when (and outcome (eq (numerics-outcome-status outcome) :end))
       (make-numerics-reference
        :state (numerics-outcome-state outcome) :method (numerics-outcome-about outcome)
        :digits (numerics-taylor-outcome-agreement outcome)
        :errors (numerics-errors-of-series outcome (numerics-full-scales controls (length start)))
-       :rows (numerics-taylor-outcome-rows outcome)))))
+       :rows (mapcar (lambda (row) (mapcar #'numerics-double-of-exact row))
+                     (numerics-taylor-outcome-rows outcome))))))
 
-(defun numerics-rational-scales (controls size)
-  (map 'list #'rational (numerics-full-scales controls size)))
+(defun numerics-series-outcome (problem controls start times digits most-steps)
+  (let ((program (numerics-problem-program problem))
+        (scales (map 'list #'rational (numerics-full-scales controls (length start)))))
+    (when program
+      (first (core-attempt
+              (lambda ()
+                (core-within *numerics-series-seconds*
+                             (lambda ()
+                               (numerics-taylor program start times digits
+                                                :scales scales :most-steps most-steps)))))))))
 
 (defun numerics-errors-of-series (outcome scales)
   "What lies beyond the digits on which two runs agree."

@@ -47,12 +47,14 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
            ("equations" "equations" "start" "time"))
   :trailing '("start" "time")
-  :options '("values" "methods" "tolerances" "cell" "integrals" "rayleigh" "forces" "constraints"
+  :options '("values" "methods" "tolerances" "cell" "file" "replace" "integrals" "rayleigh" "forces" "constraints"
              "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
 (core-rule "ErrorAgainstTime" :any "numerics/error_against_time" "numerics_error_against_time"
   "trial" "reference" '("methods" ((mlist simp) $auto $dop853 $radau $gauss $dlsode))
   '("tolerances" ((mlist simp) 1d-4 1d-6 1d-8 1d-10 1d-12)) '("cell" 2))
+(core-act "ErrorAgainstTime" nil :any "numerics/error_plot" "numerics_error_plot" "picture"
+  "ErrorAgainstTime")
 
 ;;; Pictures
 

@@ -80,8 +80,8 @@
   (let ((labels (numerics-curves-labels curves))
         (places (numerics-curve-places curves (numerics-items rows))))
     (numerics-draw picture
-                   (numerics-preamble "t" (if (cdr labels) "" (first labels)))
-                   (append (list (numerics-option '$points_joined t)
+                   (append (list (numerics-preamble "t" (if (cdr labels) "" (first labels)))
+                                 (numerics-option '$points_joined t)
                                  (numerics-option '$point_size 0)
                                  (numerics-option '$line_width 1.5d0))
                            (numerics-value-range (apply #'append places))
