@@ -24,9 +24,15 @@
   (setq *numerics-series-seconds* seconds *numerics-most-series-steps* 10000000)
   '$done)
 
-;;; ErrorAgainstTime takes one that is there.
+;;; ErrorAgainstTime takes the one that is set, else it makes one. As an argument its decimals would be refused.
 
-(pushnew "reference" (core-public-options (gethash "ErrorAgainstTime" *core-publics*)) :test #'string=)
+(defvar *report-reference* nil)
+
+(defun $report_set_reference (record) (setq *report-reference* record) '$done)
+
+(defun $report_reference (trial) (or *report-reference* ($numerics_trial_reference trial)))
+
+(core-rule "reference" :any "numerics/trial_reference" "report_reference" "trial")
 
 ;;; Files
 
