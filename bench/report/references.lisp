@@ -5,20 +5,11 @@
 ;;;     digits d             on which two ways agree
 ;;;     errors e1 .. en      of the states, at most about
 ;;;     row t x1 .. xn       states at a time, numbers in double precision
-;;; ReportReference makes one as ErrorAgainstTime does; report_take_time lets it take its time.
+;;; Look first at $report_reference.
 
 (in-package :maxima)
 
-(core-require "algebra/program_record" "numerics/trial_reference" "numerics/reference")
-
-(core-public "ReportReference"
-  :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
-           ("equations" "equations" "start" "time"))
-  :trailing '("start" "time")
-  :options (core-public-options (gethash "ErrorAgainstTime" *core-publics*))
-  :kinds (core-kind-names) :numerical t)
-(core-rule-same-as "ReportReference" :any "reference")
-(core-install "ReportReference")
+(core-require "algebra/program_record" "numerics/reference" "numerics/trial_reference")
 
 (defun $report_take_time (seconds)
   (setq *numerics-series-seconds* seconds *numerics-most-series-steps* 10000000)
@@ -30,9 +21,9 @@
 
 (defun $report_set_reference (record) (setq *report-reference* record) '$done)
 
-(defun $report_reference (trial) (or *report-reference* ($numerics_trial_reference trial)))
+(defun $report_reference (trial) (or *report-reference* ($numerics_reference_solution trial)))
 
-(core-rule "reference" :any "numerics/trial_reference" "report_reference" "trial")
+(core-rule "ReferenceSolution" :any "numerics/trial_reference" "report_reference" "trial")
 
 ;;; Files
 

@@ -41,6 +41,13 @@
             (stable-sort (copy-list items) #'>
                          :key (lambda (item) (values (numerics-read-tolerance item names)))))))
 
+(defun numerics-read-cell (seconds)
+  (let ((number (numerics-double seconds "cell")))
+    (unless (> number 0d0)
+      (core-error "cell is the number of seconds that a method may take at a tolerance, found ~a"
+                  (core-words (list seconds))))
+    number))
+
 ;;; The attempts
 
 (defun numerics-tolerance-as-told (tolerance)
@@ -59,15 +66,14 @@
   "The attempt after FAILED, one of the same method at a looser tolerance."
   (make-numerics-attempt
    :method method :tolerance tolerance
-   :status (format nil "skipped: at ~a ~a"
-                   (numerics-tolerance-text (numerics-attempt-tolerance failed))
-                   (numerics-attempt-status failed))))
+   :status (format nil "skipped: it failed at ~a"
+                   (numerics-tolerance-text (numerics-attempt-tolerance failed)))))
 
-(defun numerics-attempts-by (contest method tolerances note)
-  "Measures METHOD at TOLERANCES, and calls NOTE with each attempt; what is tighter than a tolerance at which
-it failed is skipped."
+(defun numerics-attempts-by (contest method note)
+  "Measures METHOD at all tolerances, and calls NOTE with each attempt; what is tighter than a tolerance
+at which it failed is skipped."
   (let ((failed nil))
-    (dolist (tolerance tolerances)
+    (dolist (tolerance (numerics-contest-tolerances contest))
       (core-progress "~a at ~a" (core-spelling method) (numerics-tolerance-text tolerance))
       (let ((attempt (if failed
                       (numerics-skipped-attempt method tolerance failed)
@@ -76,15 +82,16 @@ it failed is skipped."
         (funcall note attempt)
         (when (numerics-attempt-interrupted attempt) (throw 'numerics-interrupted nil))))))
 
-(defun numerics-all-attempts (contest methods tolerances)
-  "Two values: the attempts, and the sentence of the stop where the time was up or the person interrupted."
+(defun numerics-all-attempts (contest)
+  "Two values: the attempts, and the sentence of the stop where the time was up or the person
+interrupted."
   (let ((attempts '()) (stop nil))
     (multiple-value-bind (value late)
         (numerics-within-share
          (lambda ()
            (catch 'numerics-interrupted
-             (dolist (method methods t)
-               (numerics-attempts-by contest method tolerances
+             (dolist (method (numerics-contest-methods contest) t)
+               (numerics-attempts-by contest method
                                          (lambda (attempt) (push attempt attempts)))))))
       (setq stop (or late (and (null value) "interrupted"))))
     (values (reverse attempts) stop)))
@@ -104,7 +111,7 @@ it failed is skipped."
 (defun numerics-digits-of-error (error)
   (and error (/ (round (* -10 (log (max error 1d-17) 10))) 10d0)))
 
-(defun numerics-attempt-row (contest attempt floor)
+(defun numerics-attempt-row (contest attempt)
   "The row of ATTEMPT, in the order of the columns."
   (let* ((trial (numerics-contest-trial contest)) (error (numerics-attempt-error attempt))
          (seconds (numerics-attempt-seconds attempt)))
@@ -121,7 +128,7 @@ it failed is skipped."
                      (list (quartile 1/2)
                            (numerics-rounded-seconds (numerics-trial-derivation-seconds trial))
                            (numerics-rounded-seconds (numerics-trial-compile-seconds trial))
-                           (numerics-attempt-words attempt floor)
+                           (numerics-attempt-words attempt (numerics-contest-floor contest))
                            (algebra-list (quartile 1/4) (quartile 3/4))))))))
 
 (defun numerics-attempt-words (attempt floor)
@@ -132,30 +139,47 @@ it failed is skipped."
           ((<= error floor) "reached the end; below the floor of the reference")
           (t "reached the end"))))
 
-(defun $numerics_error_against_time (trial reference methods tolerances seconds)
-  "The record of TRIAL against REFERENCE, as $numerics_trial_reference makes it; an attempt may
-take SECONDS."
-  (let* ((methods (numerics-read-methods methods))
-         (tolerances (numerics-read-tolerances tolerances trial))
-         (scales (numerics-trial-scales trial (first tolerances)))
-         (reference (numerics-read-reference reference))
-         (floor (and (numerics-reference-rows reference)
-                     (numerics-reference-floor reference scales)))
-         (conditioning (numerics-trial-conditioning trial))
-         (contest (make-numerics-contest :trial trial :reference reference :scales scales
-                                         :seconds (numerics-double seconds "cell"))))
-    (multiple-value-bind (attempts stop) (numerics-all-attempts contest methods tolerances)
+(defun numerics-machine-text ()
+  "Where seconds were measured."
+  (format nil "~a ~a, ~@[~a~]" (lisp-implementation-type) (lisp-implementation-version)
+          (machine-version)))
+
+(defun numerics-told-reference (contest)
+  (let ((reference (numerics-contest-reference contest)) (floor (numerics-contest-floor contest)))
+    (algebra-list (algebra-field '$method (numerics-reference-method reference))
+                  (algebra-field '$digits (numerics-reference-digits reference))
+                  (algebra-field '$floor (and floor (numerics-few-digits floor))))))
+
+(defun numerics-told-contest (contest)
+  "The record of CONTEST, all attempts made; that of those so far where it is stopped."
+  (let ((conditioning (numerics-trial-conditioning (numerics-contest-trial contest))))
+    (multiple-value-bind (attempts stop) (numerics-all-attempts contest)
       (when stop (core-partial "~a; the rows so far are kept as a part" stop))
-      (flet ((few (x) (and x (numerics-few-digits x))))
-        (algebra-list
-         (algebra-field '$reference
-                        (algebra-list
-                         (algebra-field '$method (numerics-reference-method reference))
-                         (algebra-field '$digits (numerics-reference-digits reference))
-                         (algebra-field '$floor (few floor))))
-         (algebra-field '$conditioning (few conditioning))
-         (algebra-field '$columns (cons '(mlist simp) *numerics-row-columns*))
-         (algebra-field '$rows
-                        (cons '(mlist simp)
-                              (mapcar (lambda (attempt) (numerics-attempt-row contest attempt floor))
-                                      attempts))))))))
+      (algebra-list
+       (algebra-field '$reference (numerics-told-reference contest))
+       (algebra-field '$conditioning (and conditioning (numerics-few-digits conditioning)))
+       (algebra-field '$columns (cons '(mlist simp) *numerics-row-columns*))
+       (algebra-field '$rows
+                      (cons '(mlist simp)
+                            (mapcar (lambda (attempt) (numerics-attempt-row contest attempt))
+                                    attempts)))))))
+
+;;; For Maxima
+
+(defun $numerics_contest (trial methods tolerances seconds)
+  "What METHODS and TOLERANCES are tried on TRIAL, each for so many SECONDS."
+  (let ((tolerances (numerics-read-tolerances tolerances trial)))
+    (make-numerics-contest :trial trial :methods (numerics-read-methods methods)
+                           :tolerances tolerances :seconds (numerics-read-cell seconds)
+                           :scales (numerics-trial-scales trial (first tolerances)))))
+
+(defun $numerics_error_against_time (contest reference)
+  "The record of CONTEST against REFERENCE, as $numerics_reference_solution makes it."
+  (let ((copy (copy-numerics-contest contest)) (reference (numerics-read-reference reference)))
+    (setf (numerics-contest-reference copy) reference
+          (numerics-contest-floor copy)
+          (and (numerics-reference-rows reference)
+               (numerics-reference-floor reference (numerics-contest-scales contest))))
+    (core-report "run" (algebra-list (algebra-field '$machine (numerics-machine-text))
+                                     (algebra-field '$cell (numerics-contest-seconds contest))))
+    (numerics-told-contest copy)))

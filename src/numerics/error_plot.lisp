@@ -54,16 +54,17 @@
   '($filled_circle $filled_square $filled_up_triangle $filled_diamant $filled_down_triangle))
 
 (defun numerics-method-items (groups cost)
-  "A curve for each method."
-  (append (list (numerics-option '$points_joined t) (numerics-option '$point_size 1.2d0)
-                (numerics-option '$line_width 1.6d0))
+  "A curve for each method; the signs become smaller, so that one that hides another shows it."
+  (append (list (numerics-option '$points_joined t) (numerics-option '$line_width 1.6d0))
           (loop for (method . rows) in groups
                 for colour in *numerics-colours*
                 for sign in *numerics-point-types*
+                for point-size downfrom 2d0 by 0.2d0
                 for places = (numerics-cost-places rows cost)
                 when places
                   append (list (numerics-option '$color colour)
                                (numerics-option '$point_type sign)
+                               (numerics-option '$point_size point-size)
                                (numerics-option '$key (core-spelling method))
                                (numerics-points places)))))
 
@@ -72,7 +73,7 @@
   (cons (numerics-option '$point_size 0)
         (loop for (text value type) in floors
               when value
-                append (list (numerics-option '$color "#777777") (numerics-option '$line_type type)
+                append (list (numerics-option '$color "#222222") (numerics-option '$line_type type)
                              (numerics-option '$key text)
                              (numerics-points (list (list (first range) value)
                                                     (list (second range) value)))))))

@@ -8,8 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode"
-                "numerics/observers" "numerics/problem" "numerics/radau" "numerics/step_control"
+  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode" "numerics/problem" "numerics/radau" "numerics/step_control"
                 "numerics/taylor"))
 
 (defstruct numerics-reference
@@ -22,14 +21,17 @@
 (defparameter *numerics-most-series-steps* 5000)
 
 (defun numerics-reference-of (problem controls start times
-                              &key (digits 20) (most-steps *numerics-most-series-steps*)
-                                (observer (constantly nil)))
+                              &key (most-steps *numerics-most-series-steps*)
+                                (observer (constantly nil))
+                                (other 'numerics-dlsode))
   "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the
-exact TIMES; the last of these is the end. OBSERVER looks on at the steps in double-float numbers."
-  (or (numerics-series-reference problem controls start times digits most-steps)
+exact TIMES; the last of these is the end. OBSERVER looks on at the steps in double-float numbers. With
+no steps no series are tried. OTHER is the method that confirms an end by implicit steps."
+  (or (and (plusp most-steps)
+           (numerics-series-reference problem controls start times most-steps))
       (numerics-implicit-reference
        problem controls observer (map 'list #'numerics-double-of-exact times)
-       (map 'numerics-vector #'numerics-double-of-exact start))))
+       (map 'numerics-vector #'numerics-double-of-exact start) other)))
 
 (defun numerics-double-of-exact (e) (coerce ($float e) 'double-float))
 
@@ -45,11 +47,12 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
 
 ;;; Taylor series
 
+(defparameter *numerics-series-digits* 20)
 (defparameter *numerics-series-seconds* 20 "No longer series are tried.")
 
-(defun numerics-series-reference (problem controls start times digits most-steps)
+(defun numerics-series-reference (problem controls start times most-steps)
   "The reference by Taylor series, nil where they do not reach the end in this time, or cannot begin."
-  (let ((outcome (numerics-series-outcome problem controls start times digits most-steps)))
+  (let ((outcome (numerics-series-outcome problem controls start times most-steps)))
     (when (and outcome (eq (numerics-outcome-status outcome) :end))
       (make-numerics-reference
        :state (numerics-outcome-state outcome) :method (numerics-outcome-about outcome)
@@ -58,7 +61,7 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
        :rows (mapcar (lambda (row) (mapcar #'numerics-double-of-exact row))
                      (numerics-taylor-outcome-rows outcome))))))
 
-(defun numerics-series-outcome (problem controls start times digits most-steps)
+(defun numerics-series-outcome (problem controls start times most-steps)
   (let ((program (numerics-problem-program problem))
         (scales (map 'list #'rational (numerics-full-scales controls (length start)))))
     (when program
@@ -66,7 +69,7 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
               (lambda ()
                 (core-within *numerics-series-seconds*
                              (lambda ()
-                               (numerics-taylor program start times digits
+                               (numerics-taylor program start times *numerics-series-digits*
                                                 :scales scales :most-steps most-steps)))))))))
 
 (defun numerics-errors-of-series (outcome scales)
@@ -82,7 +85,7 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
 
 ;;; Implicit steps
 
-(defun numerics-implicit-reference (problem controls observer times start)
+(defun numerics-implicit-reference (problem controls observer times start other)
   (flet ((rows (relative)
            (numerics-rows-by-radau problem (numerics-copied-controls controls relative 0d0)
                                    observer times start)))
@@ -90,7 +93,7 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
       (if coarse
           (numerics-judged-reference
            fine (numerics-largest-differences fine coarse)
-           (numerics-distance-of-dlsode problem controls (first times) start (first (last fine)))
+           (numerics-confirmation problem controls observer fine other)
            (numerics-full-scales controls (length start)))
           (make-numerics-reference
            :method "no reference: Radau at a tolerance of 1e-13 does not reach the end")))))
@@ -119,36 +122,42 @@ exact TIMES; the last of these is the end. OBSERVER looks on at the steps in dou
                        largest state other))
     largest))
 
-(defun numerics-distance-of-dlsode (problem controls time start end)
-  "Of its end to END; nil where it cannot tell. It knows no mass matrix."
-  (unless (numerics-problem-mass problem)
-    (let ((outcome (core-within *numerics-series-seconds*
-                                (lambda ()
-                                  (numerics-dlsode problem
-                                                   (numerics-copied-controls controls 1d-11
-                                                                             (first end))
-                                                   (numerics-moment time) start
-                                                   (numerics-progress-part controls))))))
-      (and outcome (eq (numerics-outcome-status outcome) :end)
-           (numerics-distance (numerics-outcome-state outcome)
-                              (coerce (rest end) 'numerics-vector)
-                              (numerics-full-scales controls (length start)))))))
+(defparameter *numerics-confirming-seconds* 20 "No longer another method is waited for.")
+
+(defun numerics-confirmation (problem controls observer rows other)
+  "(name . distance): the method OTHER and how far from the last of ROWS it ends at a tolerance of 1e-11;
+no distance where it does not come there. It knows no mass matrix."
+  (cons (if (eq other 'numerics-dlsode) "dlsode" "DOP853")
+        (unless (numerics-problem-mass problem)
+          (let* ((end (first (last rows))) (start (first rows))
+                 (controls (numerics-copied-controls controls 1d-11 (first end)))
+                 (outcome (core-within *numerics-confirming-seconds*
+                                       (lambda ()
+                                         (funcall other problem controls
+                                                  (numerics-moment (first start))
+                                                  (coerce (rest start) 'numerics-vector)
+                                                  observer)))))
+            (when (and outcome (eq (numerics-outcome-status outcome) :end))
+              (numerics-distance (numerics-outcome-state outcome)
+                                 (coerce (rest end) 'numerics-vector)
+                                 (numerics-full-scales controls (length (rest end)))))))))
 
 (defparameter *numerics-most-distance* 1d-4 "Of another method of less accuracy to the reference.")
 
-(defun numerics-judged-reference (rows errors distance scales)
-  (if (and distance (> distance *numerics-most-distance*))
-      (make-numerics-reference
-       :method (format nil "no reference: Radau at 1e-13 and dlsode at 1e-11 end ~a apart"
-                       (numerics-short-number distance)))
-      (let* ((reference (make-numerics-reference
-                         :state (coerce (rest (first (last rows))) 'numerics-vector)
-                         :errors errors :rows rows))
-             (floor (numerics-reference-floor reference scales)))
-        (setf (numerics-reference-digits reference) (- (log floor 10))
-              (numerics-reference-method reference)
-              (format nil "Radau at a tolerance of 1e-13, ~a from that at 1e-12~@[, ~a from ~
-                           dlsode at 1e-11~]"
-                      (numerics-short-number floor)
-                      (and distance (numerics-short-number distance))))
-        reference)))
+(defun numerics-judged-reference (rows errors confirmation scales)
+  (destructuring-bind (name . distance) confirmation
+    (if (and distance (> distance *numerics-most-distance*))
+        (make-numerics-reference
+         :method (format nil "no reference: Radau at 1e-13 and ~a at 1e-11 end ~a apart" name
+                         (numerics-short-number distance)))
+        (let* ((reference (make-numerics-reference
+                           :state (coerce (rest (first (last rows))) 'numerics-vector)
+                           :errors errors :rows rows))
+               (floor (numerics-reference-floor reference scales)))
+          (setf (numerics-reference-digits reference) (- (log floor 10))
+                (numerics-reference-method reference)
+                (format nil "Radau at a tolerance of 1e-13, ~a from that at 1e-12~:[; no other ~
+                             method confirms it~;, ~:*~a from ~a at 1e-11~]"
+                        (numerics-short-number floor)
+                        (and distance (numerics-short-number distance)) name))
+          reference))))

@@ -19,15 +19,16 @@
     ($dop853 "numerics/dormand_prince" numerics-dopri)
     ($radau "numerics/radau" numerics-radau)
     ($gauss "numerics/gauss" numerics-gauss)
-    ($dlsode "numerics/dlsode" numerics-dlsode))
-  "Each row: the word for a method, its part and its function.")
+    ($dlsode "numerics/dlsode" numerics-dlsode numerics-load-dlsode))
+  "Each row: the word for a method, its part, its function, and one that loads what else it needs.")
 
 (defparameter *numerics-implicit-methods* '($auto $radau $dlsode) "Those that take a jacobian.")
 
 (defun numerics-method (run)
-  (destructuring-bind (part function)
+  (destructuring-bind (part function &optional loader)
       (cdr (assoc (numerics-wishes-method (numerics-simulation-wishes run)) *numerics-methods*))
     (core-require part)
+    (when loader (funcall loader))
     function))
 
 (defun numerics-prepare-method (run)

@@ -12,8 +12,10 @@
                 "numerics/trial"))
 
 (defstruct numerics-contest
-  trial reference scales       ; of the norm in which errors are measured
-  seconds)                     ; that an attempt may take
+  trial methods tolerances     ; these from the loosest to the tightest
+  seconds                      ; that an attempt may take
+  scales                       ; of the norm in which errors are measured
+  (reference nil) (floor nil)) ; what this may be off itself
 
 (defstruct numerics-attempt
   method tolerance
@@ -59,30 +61,45 @@
       (let ((trouble (cond (interrupted stop)
                            (stop (format nil "more than ~a s"
                                          (numerics-short-number (numerics-contest-seconds contest))))
-                           (t (numerics-trouble run)))))
+                           (t (numerics-placed-trouble run)))))
         (setf (numerics-attempt-status attempt) (or trouble "reached the end")
               (numerics-attempt-reached attempt) (null trouble))))))
+
+(defun numerics-placed-trouble (run)
+  "When and why RUN ended too early; nil where it did not."
+  (let ((trouble (numerics-trouble run)))
+    (and trouble
+         (format nil "ended at t = ~a: ~a"
+                 (numerics-short-number (aref (numerics-outcome-moment
+                                               (numerics-simulation-outcome run)) 0))
+                 trouble))))
 
 (defparameter *numerics-repeated-seconds* 0.2d0 "Shorter runs are repeated.")
 
 (defun numerics-repetitions (seconds)
-  "How often a run of SECONDS is repeated: for about half a second, from 5 to 21 times."
+  "Two values: how many times are taken of a run of SECONDS, for about half a second, and of how many runs
+each is the mean, since the clock ticks in microseconds."
   (if (< seconds *numerics-repeated-seconds*)
-      (max 5 (min 21 (floor 0.5d0 (max seconds 1d-6))))
-      0))
+      (values (max 5 (min 11 (floor 0.5d0 (max seconds 1d-6))))
+              (max 1 (min 10 (floor 1d-3 (max seconds 1d-6)))))
+      (values 0 0)))
 
 (defun numerics-repeat-bare-run (contest attempt)
   "The first of runs that are repeated counts for nothing: memory was still cold."
-  (let ((times (numerics-repetitions (first (numerics-attempt-seconds attempt)))))
+  (multiple-value-bind (times runs)
+      (numerics-repetitions (first (numerics-attempt-seconds attempt)))
     (when (plusp times)
       (setf (numerics-attempt-seconds attempt)
-            (sort (loop repeat times collect (numerics-seconds-again contest attempt)) #'<)))))
+            (sort (loop repeat times collect (numerics-mean-seconds contest attempt runs)) #'<)))))
 
-(defun numerics-seconds-again (contest attempt)
-  (let ((run (numerics-bare-run (numerics-contest-trial contest) (numerics-attempt-method attempt)
-                                (numerics-attempt-tolerance attempt))))
-    (numerics-carry-out run)
-    (numerics-simulation-seconds run)))
+(defun numerics-mean-seconds (contest attempt runs)
+  (/ (loop repeat runs
+           sum (let ((run (numerics-bare-run (numerics-contest-trial contest)
+                                             (numerics-attempt-method attempt)
+                                             (numerics-attempt-tolerance attempt))))
+                 (numerics-carry-out run)
+                 (numerics-simulation-seconds run)))
+     runs))
 
 (defun numerics-quantile (sorted share)
   "Of the list SORTED, between its members by their distance."

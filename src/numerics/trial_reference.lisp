@@ -1,15 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; The reference of a trial at its 101 points, and how well double-float numbers can know its end.
 ;;; Constraints are held in the reference as they are in runs: series are taken only where the start
-;;; holds them to all digits. Look first at $numerics_trial_reference.
+;;; holds them to all digits. Look first at $numerics_reference_solution.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "numerics/automatic" "numerics/back_to_constraints"
-                "numerics/conditioning" "numerics/decimals" "numerics/native"
-                "numerics/observers" "numerics/problem" "numerics/program" "numerics/reference"
-                "numerics/run" "numerics/run_course" "numerics/run_digits" "numerics/trial"))
+                "numerics/conditioning" "numerics/decimals" "numerics/dlsode"
+                "numerics/dormand_prince" "numerics/native" "numerics/observers"
+                "numerics/problem" "numerics/program" "numerics/reference" "numerics/run"
+                "numerics/run_course" "numerics/run_digits" "numerics/trial"))
 
 (defun numerics-reference-observer (run)
   "What looks on at the steps of a reference: back to the constraints of RUN, and progress."
@@ -18,29 +19,50 @@
      (append (and constraints (list (numerics-projection-part constraints)))
              (list (numerics-progress-part (numerics-simulation-controls run)))))))
 
-(defun $numerics_trial_reference (trial)
-  "Record: method, digits, errors of each state, rows [t, x1, ..], exact or to so many digits."
-  (let* ((run (numerics-run-of-trial trial '$radau 1d-8 *numerics-trial-points*))
-         (program (numerics-simulation-program run)) (start (numerics-trial-start trial))
-         (times (numerics-exact-times *numerics-trial-points* (numerics-trial-ends trial))))
-    (core-progress "making a reference")
-    (with-numerics-program program
+(defun numerics-series-begin-p (run start time)
+  "Whether START holds the constraints of RUN to the digits of series."
+  (let ((residual (numerics-start-residual run start time *numerics-series-digits*)))
+    (or (null residual) (<= residual (expt 10 (- *numerics-series-digits*))))))
+
+(defun numerics-reference-of-trial (trial)
+  (let ((run (numerics-run-of-trial trial '$radau 1d-8 *numerics-trial-points*))
+        (start (numerics-trial-start trial))
+        (times (numerics-exact-times *numerics-trial-points* (numerics-trial-ends trial))))
+    (with-numerics-program (numerics-simulation-program run)
       (numerics-run-switch-part run)
-      (numerics-reference-record
-       (numerics-with-masked-traps
-         (numerics-reference-of (numerics-simulation-problem run)
-                                (numerics-simulation-controls run) start times
-                                :observer (numerics-reference-observer run)))))))
+      (numerics-with-masked-traps
+        (numerics-reference-of
+         (numerics-simulation-problem run) (numerics-simulation-controls run) start times
+         :most-steps (if (numerics-series-begin-p run start (first times))
+                         *numerics-most-series-steps*
+                         0)
+         :observer (numerics-reference-observer run)
+         :other (if (numerics-simulation-constraints run) 'numerics-dopri 'numerics-dlsode))))))
+
+(defun $numerics_reference_solution (trial)
+  "Record: method, digits, errors of each state, rows [t, x1, ..]; one that its time did not suffice for is
+a part."
+  (core-progress "making a reference")
+  (multiple-value-bind (reference stop)
+      (core-within *numerics-share-of-reference* (lambda () (numerics-reference-of-trial trial)))
+    (when stop (core-report "partial" t))
+    (unless reference
+      (setq reference (make-numerics-reference :method "no reference: its time was up")))
+    (unless (numerics-reference-rows reference)
+      (core-warn "~a" (numerics-reference-method reference)))
+    (numerics-reference-record reference)))
+
+(defparameter *numerics-share-of-reference* 1/2 "Of the time that a call has left.")
 
 (defun numerics-reference-record (reference)
-  (flet ((list-of (items) (cons '(mlist simp) items)))
-    (algebra-list
-     (algebra-field '$method (numerics-reference-method reference))
-     (algebra-field '$digits (let ((digits (numerics-reference-digits reference)))
-                               (and digits (numerics-few-digits (coerce digits 'double-float)))))
-     (algebra-field '$errors
-                    (list-of (map 'list #'numerics-few-digits (numerics-reference-errors reference))))
-     (algebra-field '$rows (list-of (mapcar #'list-of (numerics-reference-rows reference)))))))
+  (let ((digits (numerics-reference-digits reference)))
+    (flet ((list-of (items) (cons '(mlist simp) items)))
+      (algebra-list
+       (algebra-field '$method (numerics-reference-method reference))
+       (algebra-field '$digits (and digits (numerics-few-digits (coerce digits 'double-float))))
+       (algebra-field '$errors (list-of (map 'list #'numerics-few-digits
+                                             (numerics-reference-errors reference))))
+       (algebra-field '$rows (list-of (mapcar #'list-of (numerics-reference-rows reference))))))))
 
 (defun numerics-read-reference (record)
   "The reference that RECORD describes."
