@@ -11,7 +11,9 @@
   (cond ((not (numberp x)) "")
         ((zerop x) "0")
         (t (multiple-value-bind (mantissa exponent) (report-mantissa x)
-             (format nil "~,1fe~d" mantissa exponent)))))
+             (if (< (abs (- mantissa (round mantissa))) 1d-6)
+                 (format nil "~de~d" (round mantissa) exponent)
+                 (format nil "~,1fe~d" mantissa exponent))))))
 
 (defun report-mantissa (x)
   (let* ((exponent (floor (log (abs x) 10))) (mantissa (/ x (expt 10d0 exponent))))
