@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The page doc/methods.md: which method serves which scene, in words that are computed from the results of the report. Look first
-;;; at $report_methods.
+;;; The page doc/methods.md: which method serves which scene, in words that are computed from the results of the
+;;; report. Look first at $report_methods.
 
 (in-package :maxima)
 
@@ -54,8 +54,11 @@
 ;;; A scene in words
 
 (defun report-stiff-p (result)
-  "Whether the explicit method fails, or takes more than three times as long as the implicit one for six digits."
-  (let ((explicit (report-time-to 1d-6 result '$dop853)) (implicit (report-time-to 1d-6 result '$radau)))
+  "Whether the explicit method takes more than three times as long as the implicit one, or fails, at the first of the errors which
+that one reaches."
+  (let* ((error (find-if (lambda (error) (report-time-to error result '$radau)) *report-errors*))
+         (implicit (and error (report-time-to error result '$radau)))
+         (explicit (and error (report-time-to error result '$dop853))))
     (and implicit (or (null explicit) (> explicit (* 3 implicit))))))
 
 (defun report-runs-of-errors (result)

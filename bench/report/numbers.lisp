@@ -81,7 +81,8 @@
               (report-milliseconds (report-entry first '$derivation_seconds))
               (report-milliseconds (report-entry first '$compile_seconds))
               (subseq (part '$digest) 0 23) (part '$title) (part '$name)))
-    (report-table out '("method" " tolerance" " error" " largest" " digits" " worst drift" " f" " J" " LU" " steps" " rejected" " ms")
+    (report-table out '("method" " tolerance" " error" " largest" " digits" " worst drift" " f" " J" " LU" " steps"
+                        " rejected" " ms")
                   (mapcar #'report-row-texts (remove-if-not #'report-reached-p (report-rows result))))
     (report-failures out result)))
 
