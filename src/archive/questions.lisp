@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/open" "archive/results" "archive/types"))
+  (core-require "archive/keys" "archive/open" "archive/types"))
 
 (defvar *archive-asked* '() "The questions asked in this dialog.")
 (defvar *archive-fresh-input* nil

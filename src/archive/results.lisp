@@ -125,7 +125,7 @@ can read them."
         line
         (format nil (format nil "~~a~~{~~a~~^,~~%~~~d@t~~}~~a" (+ indent 1)) open items close))))
 
-(defun archive-filled (open items close indent)
+(defun archive-filled-lines (open items close indent)
   "The same for a row of numbers and words: as many on a line as fit."
   (with-output-to-string (out)
     (write-string open out)
@@ -185,7 +185,7 @@ doubles."
       (let ((items (mapcar (lambda (item) (archive-value-text item (1+ indent) doubles))
                            (cdr value))))
         (if (and doubles (archive-row-p value items))
-            (archive-filled "[" items "]" indent)
+            (archive-filled-lines "[" items "]" indent)
             (archive-wrapped "[" items "]" indent)))
       (archive-folded (archive-settled-text value :doubles doubles) indent)))
 

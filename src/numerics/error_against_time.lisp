@@ -137,6 +137,8 @@ interrupted."
     (cond ((null (numerics-attempt-reached attempt)) (numerics-attempt-status attempt))
           ((null error) "reached the end; no reference")
           ((<= error floor) "reached the end; below the floor of the reference")
+          ((null (numerics-attempt-largest attempt))
+           "reached the end; the 100 points were not looked at")
           (t "reached the end"))))
 
 (defun numerics-machine-text ()

@@ -12,7 +12,6 @@
                 "numerics/taylor"))
 
 (defstruct numerics-reference
-  state  ; the end, double-float numbers; nil where nothing could be had
   method ; a sentence
   digits ; to which two runs agree, about, at all times
   errors ; of each state, at most about, a vector
@@ -55,7 +54,7 @@ no steps no series are tried. OTHER is the method that confirms an end by implic
   (let ((outcome (numerics-series-outcome problem controls start times most-steps)))
     (when (and outcome (eq (numerics-outcome-status outcome) :end))
       (make-numerics-reference
-       :state (numerics-outcome-state outcome) :method (numerics-outcome-about outcome)
+       :method (numerics-outcome-about outcome)
        :digits (numerics-taylor-outcome-agreement outcome)
        :errors (numerics-errors-of-series outcome (numerics-full-scales controls (length start)))
        :rows (mapcar (lambda (row) (mapcar #'numerics-double-of-exact row))
@@ -150,9 +149,7 @@ no distance where it does not come there. It knows no mass matrix."
         (make-numerics-reference
          :method (format nil "no reference: Radau at 1e-13 and ~a at 1e-11 end ~a apart" name
                          (numerics-short-number distance)))
-        (let* ((reference (make-numerics-reference
-                           :state (coerce (rest (first (last rows))) 'numerics-vector)
-                           :errors errors :rows rows))
+        (let* ((reference (make-numerics-reference :errors errors :rows rows))
                (floor (numerics-reference-floor reference scales)))
           (setf (numerics-reference-digits reference) (- (log floor 10))
                 (numerics-reference-method reference)

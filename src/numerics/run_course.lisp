@@ -6,11 +6,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "forms/rates" "numerics/back_to_constraints" "numerics/dead_points"
-                "numerics/decimals" "numerics/drifts" "numerics/events"
-                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
-                "numerics/problem"
-                "numerics/routine" "numerics/run" "numerics/run_options"
-                "numerics/switches"))
+                "numerics/decimals" "numerics/drifts" "numerics/events" "numerics/jacobian"
+                "numerics/native" "numerics/observers" "numerics/poles" "numerics/problem"
+                "numerics/right_side_divisors" "numerics/routine" "numerics/run"
+                "numerics/run_options" "numerics/switches"))
 
 ;;; Methods
 
@@ -40,6 +39,13 @@
     (cond ((and (eq method '$dlsode) (numerics-simulation-constraints run))
            (core-error "the steps of dlsode build on each other, and constraints change the state ~
                         after each; take method = auto"))
+          ((and (eq method '$dlsode)
+                (numerics-jumps-of-states (numerics-simulation-program run)))
+           (core-error "the steps of dlsode build on each other, and the right-hand side may jump ~
+                        where ~a = 0, which the states decide; take method = auto"
+                       (or (numerics-element-words
+                            (first (numerics-jumps-of-states (numerics-simulation-program run))))
+                           "the argument of a sign")))
           ((member method *numerics-implicit-methods*)
            (unless (numerics-problem-jacobian problem) (numerics-add-jacobian problem))
            (numerics-warn-of-start run))

@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
                 "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
                 "numerics/problem" "numerics/program" "numerics/routine" "numerics/sparse"
                 "numerics/step_control"))
@@ -24,6 +24,15 @@
           (unless (or (not (algebra-node-p argument))
                       (member (algebra-node-operation argument) '(:sign :absolute)))
             (pushnew argument found)))))))
+
+(defun numerics-jumps-of-states (program)
+  "The arguments of signs in PROGRAM's rates that depend on states: where they vanish X may jump."
+  (with-numerics-program program
+    (loop for node in (algebra-live-nodes (numerics-program-rates program))
+          when (and (eq (algebra-node-operation node) :sign)
+                    (intersection (algebra-inputs-of (list (algebra-node-left node)))
+                                  (numerics-program-names program) :test #'algebra-same-name-p))
+            collect (algebra-node-left node))))
 
 (defstruct numerics-switches
   elements events rates mass timed                    ; the last three of the problem

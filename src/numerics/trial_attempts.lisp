@@ -97,9 +97,15 @@ each is the mean, since the clock ticks in microseconds."
            sum (let ((run (numerics-bare-run (numerics-contest-trial contest)
                                              (numerics-attempt-method attempt)
                                              (numerics-attempt-tolerance attempt))))
-                 (numerics-carry-out run)
+                 (numerics-carry-out-again attempt run #'numerics-within-share)
                  (numerics-simulation-seconds run)))
      runs))
+
+(defun numerics-carry-out-again (attempt run within)
+  "Makes RUN, of an ATTEMPT that came to the end before; whether it did so again."
+  (multiple-value-bind (stop interrupted) (numerics-carry-out run within)
+    (when interrupted (setf (numerics-attempt-interrupted attempt) t))
+    (null stop)))
 
 (defun numerics-quantile (sorted share)
   "Of the list SORTED, between its members by their distance."
@@ -110,34 +116,42 @@ each is the mean, since the clock ticks in microseconds."
 
 ;;; What the run was worth
 
+(defparameter *numerics-patience* 10 "Times what the bare run may take that which looks on may take.")
+
 (defun numerics-look-at-attempt (contest attempt)
   "Compares with the reference at the end and at 100 points, and looks at the integrals."
-  (let ((run (numerics-watched-run (numerics-contest-trial contest) (numerics-attempt-method attempt)
+  (let ((run (numerics-watched-run (numerics-contest-trial contest)
+                                   (numerics-attempt-method attempt)
                                    (numerics-attempt-tolerance attempt))))
+    (numerics-compare-end contest attempt)
     (with-numerics-program (numerics-simulation-program run)
       (numerics-watch-integrals run))
-    (numerics-carry-out run)
-    (setf (numerics-attempt-drifts attempt) (numerics-named-drifts run))
-    (numerics-compare-attempt contest attempt run)))
+    (when (numerics-carry-out-again attempt run
+                                    (numerics-limited (* *numerics-patience*
+                                                         (numerics-contest-seconds contest))))
+      (setf (numerics-attempt-drifts attempt) (numerics-named-drifts run))
+      (numerics-compare-points contest attempt (numerics-simulation-rows run)))))
 
-(defun numerics-compare-attempt (contest attempt run)
-  (let ((rows (numerics-reference-rows (numerics-contest-reference contest)))
-        (scales (numerics-contest-scales contest)) (found (numerics-simulation-rows run)))
-    (flet ((distance (state row)
-             (numerics-distance state (coerce (rest row) 'numerics-vector) scales)))
-      (when rows
-        (setf (numerics-attempt-error attempt)
-              (distance (numerics-outcome-state (numerics-simulation-outcome
-                                                 (numerics-attempt-run attempt)))
-                        (first (last rows)))
-              (numerics-attempt-largest attempt)
-              (max (numerics-attempt-error attempt)
-                   (loop for row in rows
-                         for k = (numerics-row-about found (first row))
-                         maximize (distance (numerics-row-state found k) row))))))))
+(defun numerics-distance-to (row state contest)
+  "Of STATE to ROW of the reference, in the norm of CONTEST."
+  (numerics-distance state (coerce (rest row) 'numerics-vector) (numerics-contest-scales contest)))
 
-(defun numerics-row-about (rows time)
-  "The number of that one of ROWS, which are evenly spaced, at TIME: a reference may have fewer."
-  (let* ((last (1- (numerics-rows-count rows))) (numbers (numerics-rows-numbers rows))
-         (start (aref numbers 0)) (end (aref numbers (* last (numerics-rows-width rows)))))
-    (round (* last (/ (- time start) (- end start))))))
+(defun numerics-compare-end (contest attempt)
+  (let ((rows (numerics-reference-rows (numerics-contest-reference contest))))
+    (when rows
+      (setf (numerics-attempt-error attempt)
+            (numerics-distance-to (first (last rows))
+                                  (numerics-outcome-state (numerics-simulation-outcome
+                                                           (numerics-attempt-run attempt)))
+                                  contest)))))
+
+(defun numerics-compare-points (contest attempt found)
+  "FOUND, numerics-rows, against the reference at the same times."
+  (let ((rows (numerics-reference-rows (numerics-contest-reference contest))))
+    (when rows
+      (setf (numerics-attempt-largest attempt)
+            (max (numerics-attempt-error attempt)
+                 (loop for row in rows
+                       for k below (numerics-rows-count found)
+                       maximize (numerics-distance-to row (numerics-row-state found k)
+                                                      contest)))))))
