@@ -4,16 +4,14 @@
 
 (in-package :maxima)
 
-(core-require "algebra/program_nodes" "algebra/program_record" "archive/digest" "archive/open"
+(core-require "algebra/program_nodes" "algebra/program_record" "archive/digest" "archive/open" "archive/speller"
               "numerics/jacobian" "numerics/program")
 
 (defun $report_description (path) (archive-description (archive-open path)))
 
 (defun $report_digest (record start span)
   "Of the program RECORD with what is run of it."
-  (archive-digest (format nil "~{~a~%~}" (mapcar #'$report_text (list record start span)))))
-
-(defun $report_text (e) (mfuncall '$string e))
+  (archive-digest (format nil "~{~a~%~}" (mapcar #'archive-spell (list record start span)))))
 
 (defun report-constant-p (element)
   (notany (lambda (node) (and (algebra-input-p node) (not (algebra-constant-input-p node))))
