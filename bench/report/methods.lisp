@@ -17,10 +17,8 @@
 ;;; The table: the quickest at each error
 
 (defun report-quickest-text (error result)
-  (let ((ranking (report-ranking error result)))
-    (if ranking
-        (format nil "~a ~a" (report-name (cdar ranking)) (report-spoken-time (caar ranking)))
-        "none")))
+  (let ((best (report-best error result)))
+    (if best (format nil "~a ~a" (report-name (cdr best)) (report-spoken-time (car best))) "none")))
 
 (defun report-quickest (out results)
   (report-table out (cons "scene" (mapcar (lambda (error) (format nil "error ~a" (report-short error))) *report-errors*))
@@ -65,19 +63,21 @@ that one reaches."
   "((method error ..) ..): the quickest and the errors, one after the other, for which it is."
   (let ((runs '()))
     (dolist (error *report-errors* (reverse (mapcar (lambda (run) (cons (car run) (reverse (cdr run)))) runs)))
-      (let ((method (cdar (report-ranking error result))))
+      (let ((method (cdr (report-best error result))))
         (cond ((null method))
               ((eq method (caar runs)) (push error (cdar runs)))
               (t (push (list method error) runs)))))))
 
 (defun report-quickest-words (result)
   (loop for (method . errors) in (report-runs-of-errors result)
-        collect (format nil "~a to ~a" (report-name method)
+        collect (format nil "~a for ~a" (report-name method)
                         (report-spoken-list (mapcar #'report-short errors)))))
 
 (defun report-auto-words (result)
   (let ((quotients (remove nil (report-quotients '$auto (list result)))))
-    (when quotients (format nil "auto takes ~,1f times as long at most" (reduce #'max quotients)))))
+    (when quotients
+      (let ((worst (reduce #'max quotients)))
+        (if (<= worst *report-alike*) "auto as quick" (format nil "auto up to ~,1f times slower" worst))))))
 
 (defun report-failing-words (result)
   (let ((failing (remove-if (lambda (method) (some #'report-reached-p (report-rows-of result method)))
@@ -95,12 +95,12 @@ that one reaches."
 
 (defun report-scene-words (result)
   (let ((quickest (report-quickest-words result)))
-    (format nil "**~a** (~:[not ~;~]stiff): ~:[nothing reaches 1e-3~;~:*quickest ~{~a~^, ~}~]~@[; ~a~]~@[; ~a~]~@[; ~a~]."
+    (format nil "**~a** (~:[not ~;~]stiff): ~:[nothing reaches 1e-3~;~:*~{~a~^, ~}~]~@[; ~a~]~@[; ~a~]~@[; ~a~]."
             ($core_get result '$title) (report-stiff-p result) quickest (report-auto-words result)
             (report-failing-words result) (report-least-drift-words result))))
 
-(defun $report_methods (file head machine results)
-  "Writes FILE from the file HEAD, the text MACHINE and the list RESULTS."
+(defun $report_methods (file head machine results long)
+  "Writes FILE from the file HEAD, the text MACHINE and the lists RESULTS and, of long runs, LONG."
   (with-open-file (out file :direction :output :if-exists :supersede)
     (report-copy-head out head machine)
     (report-quickest out (cdr results))
@@ -108,6 +108,7 @@ that one reaches."
                  for an error that some method reaches, and reached it; was quickest, within 1.5 and 5 times the quickest; ~
                  the middle and the worst quotient.~%")
     (report-standings out (cdr results))
-    (format out "~%## Scene by scene~%~%")
-    (dolist (result (cdr results)) (format out "* ~a~%" (report-scene-words result))))
+    (format out "~%## Scene by scene~%~%Which method reaches errors first; how auto compares; what fails.~%~%")
+    (dolist (result (cdr results)) (format out "* ~a~%" (report-scene-words result)))
+    (report-long-words out (cdr long)))
   '$done)

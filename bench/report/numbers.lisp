@@ -99,6 +99,7 @@
   "Writes FILE from the file HEAD, the text MACHINE and the lists RESULTS and, of long runs, LONG."
   (with-open-file (out file :direction :output :if-exists :supersede)
     (report-copy-head out head machine)
+    (report-peers out ($core_path "doc/bench.md"))
     (report-left-out out (cdr results))
     (format out "~%## Errors against time~%")
     (dolist (result (cdr results)) (report-scene out result))

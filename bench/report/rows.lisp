@@ -54,6 +54,16 @@
               when seconds collect (cons seconds method))
         #'< :key #'car))
 
+(defparameter *report-alike* 1.15d0 "Quotient of times that are not told apart.")
+
+(defun report-best (error result)
+  "(seconds . method), the quickest to ERROR; not auto where a method that auto may have taken is as quick."
+  (destructuring-bind (&optional first second &rest others) (report-ranking error result)
+    (declare (ignore others))
+    (if (and second (eq (cdr first) '$auto) (<= (car second) (* *report-alike* (car first))))
+        second
+        first)))
+
 (defun report-worst-drift (row)
   "(name . drift), nil where nothing is known to be constant."
   (let ((worst nil))
