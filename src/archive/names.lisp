@@ -91,15 +91,23 @@
             (loop for (nil name value) in (cdr description)
                   when (stringp name) append (section (archive-section-word name) (cdr value))))))
 
+(defun archive-declared-and-used (kind description)
+  "Two values: the names that DESCRIPTION declares, and those that it uses."
+  (multiple-value-bind (branch-declares branch-uses) (archive-branch-names description)
+    (values (append '($t) branch-declares (archive-momentum-names description)
+                    (archive-rotor-angles description)
+                    (archive-map-keys #'archive-declared-by kind description))
+            (append branch-uses (archive-map-keys #'archive-used-by kind description)))))
+
+(defun archive-known-names (kind description)
+  "The names that stand in DESCRIPTION."
+  (multiple-value-call #'append (archive-declared-and-used kind description)))
+
 (defun archive-free-symbols (kind description)
   "The names that DESCRIPTION uses and does not declare, sorted."
-  (multiple-value-bind (branch-declares branch-uses) (archive-branch-names description)
-    (let ((declared (append '($t) branch-declares (archive-momentum-names description)
-                            (archive-rotor-angles description)
-                            (archive-map-keys #'archive-declared-by kind description)))
-          (used (append branch-uses (archive-map-keys #'archive-used-by kind description))))
-      (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared)))
-            #'string<))))
+  (multiple-value-bind (declared used) (archive-declared-and-used kind description)
+    (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared)))
+          #'string<)))
 
 (defun archive-warn-free-symbols (kind description)
   (let ((free (archive-free-symbols kind description)))

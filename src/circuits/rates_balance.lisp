@@ -48,8 +48,8 @@
                (unless (circuits-flow run branch)
                  (return (format nil "the power of ~a depends on rates" label))))))
 
-;;; What a branch takes that stores nothing. Its current or voltage may still be unknown: of a source
-;;; it is a sum over its cut or loop.
+;;; What a branch takes that stores nothing. Its current or voltage may still be unknown: of a
+;;; source it is a sum over its cut or loop.
 
 (defun circuits-flow (run branch)
   "(voltage . current) of BRANCH in the direction of the states, nil where they are not known."

@@ -8,9 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/elements" "circuits/graph" "circuits/element_laws" "circuits/rates_by_branches"
-                "circuits/tree" "forms/agreement" "forms/fixed" "forms/judge"
-                "forms/program_judge" "forms/value"))
+  (core-require "circuits/elements" "circuits/graph" "circuits/element_laws"
+                "circuits/rates_by_branches" "circuits/tree" "forms/agreement" "forms/fixed"
+                "forms/judge" "forms/program_judge" "forms/value"))
 
 (defstruct circuits-trial
   run point   ; a random point, with the values of dependent states under their names

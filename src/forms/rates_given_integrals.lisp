@@ -23,8 +23,8 @@ be constant along all motions, and not on some of them only."
                         (forms-rates-untold rates)))
                  ((assoc name (forms-rates-integrals rates)))
                  ((and everywhere (not (forms-stays-constant-p rates element)))
-                  (core-warn "~a of the integrals is not constant along the equations; its drift is ~
-                              not looked at"
+                  (core-warn "~a of the integrals is not constant along the equations; its drift ~
+                              is not looked at"
                              (core-words (list name))))
                  (t (setf (forms-rates-integrals rates)
                           (append (forms-rates-integrals rates) (list integral))))))

@@ -51,7 +51,9 @@
   "The value of BODY, or :interrupted."
   #+sbcl `(block nil
             (handler-bind ((sb-sys:interactive-interrupt
-                             (lambda (condition) (declare (ignore condition)) (return :interrupted))))
+                             (lambda (condition)
+                               (declare (ignore condition))
+                               (return :interrupted))))
               ,@body))
   #-sbcl `(progn ,@body))
 

@@ -1,8 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Pictures by Maxima's share package draw and gnuplot: PNG or SVG in a file, on the screen, or in
-;;; the worksheet of wxMaxima. gnuplot writes into a file of a plain name in the folder for temporary
-;;; ones, which is then put under the name that was asked for, whatever letters that has. What draw
-;;; keeps from one drawing to the next is out of the way meanwhile. Look first at numerics-draw.
+;;; the worksheet of wxMaxima. gnuplot writes into a file of a plain name in the folder for
+;;; temporary ones, which is then put under the name that was asked for, whatever letters that has.
+;;; What draw keeps from one drawing to the next is out of the way meanwhile. Look first at
+;;; numerics-draw.
 
 (in-package :maxima)
 
@@ -181,8 +182,8 @@
                                      (rest (first scenes)))
                                (rest scenes))))
     (unless (numerics-filled-p mark)
-      (core-warn "no picture is shown: gnuplot, by the name `~a' (gnuplot_command), needs a screen; ~
-                  give file = \"name.png\"" $gnuplot_command))))
+      (core-warn "no picture is shown: gnuplot, by the name `~a' (gnuplot_command), needs a ~
+                  screen; give file = \"name.png\"" $gnuplot_command))))
 
 (defun numerics-draw (picture &rest scenes)
   "The picture of SCENES side by side, each (preamble . items), items being options and objects of draw;

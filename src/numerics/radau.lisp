@@ -157,15 +157,18 @@
     (cond ((not (numerics-finite-p largest-error)) (numerics-radau-reject run 0.25d0 :not-finite))
           ((>= largest-error 1d0)
            (numerics-radau-reject run (if first 0.1d0 (/ (numerics-radau-divisor run))) nil))
-          ((numerics-radau-look-ahead run)
-           (or (numerics-radau-inspect run) (numerics-radau-accept run observer)))
-          (t (incf (numerics-counts-not-finite (numerics-radau-run-counts run)))
-             (numerics-radau-reject run 0.25d0 :not-finite)))))
+          ((not (numerics-radau-look-ahead run))
+           (incf (numerics-counts-not-finite (numerics-radau-run-counts run)))
+           (numerics-radau-reject run 0.25d0 :not-finite))
+          ((numerics-radau-deceived-p run) (setf (numerics-radau-run-jacobian run) :none) nil)
+          ((numerics-radau-inspect run))
+          (t (numerics-radau-accept run observer)))))
 
 (defun numerics-radau-look-ahead (run)
-  "The slope at the end of the step, unless the run ends there; whether it is finite."
-  (numerics-with-radau (run moment later step after ahead last)
-    (or last
+  "The slope at the end of the step, unless the run ends there with stages that were looked at twice;
+whether it is finite."
+  (numerics-with-radau (run moment later step after ahead last iterations)
+    (or (and last (> iterations 1))
         (progn (replace later moment)
                (numerics-advance later step)
                (numerics-radau-rates run later after ahead)))))

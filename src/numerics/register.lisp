@@ -29,9 +29,9 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
            ("equations" "equations" "start" "time"))
   :trailing '("start" "time")
-  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "first_step" "integrals"
-             "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces" "constraints"
-             "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
+  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "first_step"
+             "integrals" "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces"
+             "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
 (core-rule "derivation_began" :any "numerics/native" "numerics_working_seconds")
 (core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"

@@ -50,8 +50,8 @@
            (unless (numerics-problem-jacobian problem) (numerics-add-jacobian problem))
            (numerics-warn-of-start run))
           ((numerics-problem-mass problem)
-           (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is not ~
-                        divided out; take method = radau" (core-spelling method))))
+           (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is ~
+                        not divided out; take method = radau" (core-spelling method))))
     (numerics-method run)))
 
 (defun numerics-warn-of-start (run)
@@ -106,8 +106,8 @@ more than one solution may begin there."
 (defparameter *numerics-cutting-methods* '($auto $dop853 $radau) "Those that inspect a step.")
 
 (defun numerics-run-switch-part (run)
-  "Where the right-hand side of RUN has jumps or corners, a method that can looks at each of its steps;
-for others a part of an observer, or nil."
+  "Where the right-hand side of RUN has jumps or corners, a method that can looks at each of its
+steps; for others a part of an observer, or nil."
   (let* ((controls (numerics-simulation-controls run)) (wishes (numerics-simulation-wishes run))
          (switches (numerics-new-switches
                     (numerics-simulation-program run) (numerics-simulation-problem run)
@@ -181,8 +181,9 @@ it, and whether it was the latter. WITHIN calls a function within a time, as cor
 
 (defun numerics-trouble-of-steps (run outcome)
   (if (numerics-simulation-lost run)
-      (format nil "the mass matrix becomes singular: ~a"
-              (numerics-lost-words (numerics-simulation-lost run)))
+      (format nil "~:[the mass matrix becomes singular: ~;~]~a"
+              (numerics-multiplier-p (first (numerics-simulation-lost run)) run)
+              (numerics-lost-words run (numerics-simulation-lost run)))
       (format nil (ecase (numerics-outcome-status outcome)
                     (:not-finite "the right-hand side has no finite value there")
                     (:smallest-step "the step became as small as the last place of t: the solution ~
@@ -192,6 +193,6 @@ it, and whether it was the latter. WITHIN calls a function within a time, as cor
                     (:most-steps "the most steps that were allowed are made")
                     (:too-slow "the steps became too short")
                     (:singular "the matrix of the implicit steps is singular")
-                    (:stiff "the motion is stiff there, and an explicit method would need more than a ~
-                             million steps; take method = radau, or auto")
+                    (:stiff "the motion is stiff there, and an explicit method would need more ~
+                             than a million steps; take method = radau, or auto")
                     (:sliding "no solution in the ordinary sense goes on there")))))

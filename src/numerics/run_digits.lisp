@@ -60,8 +60,9 @@ began at BEGAN."
                     (core-words (list (numerics-controls-end (numerics-simulation-controls run))))
                     trouble))
     (numerics-warn-of-drifts run)
-    (core-report "run" (numerics-report run (numerics-long-fields run (or trouble "reached the end"))
-                                        (numerics-residual-fields run rows)))))
+    (core-report "run" (numerics-report
+                        run (numerics-long-fields run (or trouble "reached the end"))
+                        (numerics-residual-fields run rows)))))
 
 (defun numerics-long-fields (run status)
   (let ((agreement (numerics-taylor-outcome-agreement (numerics-simulation-outcome run))))

@@ -1,14 +1,15 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a run can be asked for beside its rows: an estimate of their error, the distance to a second
-;;; run at a finer tolerance or step, and the floor below which no run on double-float numbers comes
-;;; but by luck (conditioning.lisp). See numerics-error-fields first.
+;;; What a run can be asked for beside its rows: an estimate of their error, the distance to a
+;;; second run at a finer tolerance or step, and the floor below which no run on double-float
+;;; numbers comes but by luck (conditioning.lisp). See numerics-error-fields first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "numerics/conditioning"
                 "numerics/decimals" "numerics/native" "numerics/observers" "numerics/problem"
-                "numerics/run" "numerics/run_course" "numerics/run_options" "numerics/step_control"))
+                "numerics/run" "numerics/run_course" "numerics/run_options"
+                "numerics/step_control"))
 
 (defun numerics-asked-fields (run)
   "The fields of the report that the wishes of RUN ask for; RUN has come to its end."
@@ -39,8 +40,8 @@
     (values (numerics-run-again run controls (numerics-simulation-wishes run)) how)))
 
 (defun numerics-other-controls (run)
-  "A step is halved: it may be the only one. The tolerance of a method with one step stays, since the
-order follows from it."
+  "A step is halved: it may be the only one. The tolerance of a method with one step stays, since
+the order follows from it."
   (let* ((controls (numerics-simulation-controls run))
          (relative (numerics-controls-relative controls))
          (finest (max *numerics-least-tolerance* (/ relative 100)))

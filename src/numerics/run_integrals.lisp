@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The first integrals of a run, as the rates have them, looked at after each step: what has a value
-;;; at its start. A power is integrated only where the states between two steps cost little. See
-;;; numerics-watch-integrals first.
+;;; The first integrals of a run, as the rates have them, looked at after each step: what has a
+;;; value at its start. A power is integrated only where the states between two steps cost little.
+;;; See numerics-watch-integrals first.
 
 (in-package :maxima)
 

@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Simulate: the rows [t, x1, .., xn] of a run, the last one where it ended, and what is told of it:
-;;; the method, its steps and evaluations, seconds. A run that does not reach its end is an error that
-;;; says where and why; its rows so far are kept as a part. Look first at $numerics_simulate.
+;;; Simulate: the rows [t, x1, .., xn] of a run, the last one where it ended, and what is told of
+;;; it: the method, its steps and evaluations, seconds. A run that does not reach its end is an
+;;; error that says where and why; its rows so far are kept as a part. Look first at
+;;; $numerics_simulate.
 
 (in-package :maxima)
 
@@ -40,6 +41,7 @@
          (asked (unless (or stop trouble) (numerics-asked-fields run))))
     (numerics-tell-end run stop trouble)
     (numerics-warn-of-drifts run)
+    (numerics-warn-of-events run)
     (core-report "run" (numerics-report
                         run
                         (numerics-course-fields run (numerics-status-words run stop trouble))

@@ -1,11 +1,11 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Jumps and corners of a right-hand side X: where the argument of a sign or of an absolute value
-;;; vanishes. The error of a step that goes over one is not what its estimate says: a short pulse may
-;;; lie between all stages. So where an argument vanishes within a step, what the step adds to the
-;;; state is compared with the integral of X along it, from zero to zero; where they differ by more
-;;; than the tolerance, the step is cut to end shortly before the first zero, and one so short that
-;;; nothing in it counts leads to the other side. A motion that comes back again and again has no
-;;; solution in the ordinary sense. See numerics-inspect-switches first.
+;;; vanishes. The error of a step that goes over one is not what its estimate says: a short pulse
+;;; may lie between all stages. So where an argument vanishes within a step, what the step adds to
+;;; the state is compared with the integral of X along it, from zero to zero; where they differ by
+;;; more than the tolerance, the step is cut to end shortly before the first zero, and one so short
+;;; that nothing in it counts leads to the other side. A motion that comes back again and again has
+;;; no solution in the ordinary sense. See numerics-inspect-switches first.
 
 (in-package :maxima)
 
@@ -47,8 +47,8 @@
 (defparameter *numerics-quadrature-nodes* 5)
 
 (defun numerics-new-switches (program problem controls)
-  "What looks for jumps and corners of the right-hand side of PROBLEM, which PROGRAM poses; nil where
-there are none."
+  "What looks for jumps and corners of the right-hand side of PROBLEM, which PROGRAM poses; nil
+where there are none."
   (with-numerics-program program
     (let ((elements (numerics-switch-elements (numerics-program-rates program)))
           (n (length (numerics-program-names program))))
@@ -71,25 +71,28 @@ there are none."
 (defun numerics-switch-zeros (switches step)
   "Where arguments vanish within STEP, (share place) in order."
   (let* ((events (numerics-switches-events switches))
-         (zeros (progn (numerics-sample-events events step)
-                       (numerics-begin-events events step)
-                       (loop for (share place) in (numerics-wanted-zeros events step)
+         (zeros (progn (setf (numerics-events-sides events) nil)
+                       (loop for (share place) in (numerics-zeros-of-step events step)
                              unless (= share 0d0) collect (list share place)))))
+    (numerics-sample-events events step)
     (sort (append zeros (loop for (share) in zeros
                               append (numerics-zeros-about events step share)))
           #'< :key #'first)))
 
 (defun numerics-zeros-about (events step share)
   "Zeros on both sides of SHARE, where one argument vanishes, of others whose sign there is neither
-that of the sample before nor of the one after: one may be a function of the absolute value of another."
-  (let* ((k (min 15 (floor (* 16 share)))) (values (copy-seq (numerics-events-at events step share))))
+that of the sample before nor of the one after: one may be a function of the absolute value of
+another."
+  (let* ((k (min 15 (floor (* 16 share))))
+         (values (copy-seq (numerics-events-at events step share))))
     (loop for place below (numerics-events-count events)
           for side = (numerics-side (aref values place))
           for before = (numerics-side (numerics-sample events place k))
           when (and (/= side 0) (= before (- side))
                     (= before (numerics-side (numerics-sample events place (1+ k)))))
-            append (list (list (numerics-crossing events step place (/ k 16d0) share) place)
-                         (list (numerics-crossing events step place share (/ (1+ k) 16d0)) place)))))
+            append (loop for (from to) in (list (list (/ k 16d0) share)
+                                                (list share (/ (1+ k) 16d0)))
+                         collect (list (numerics-crossing events step place from to) place)))))
 
 (defun numerics-step-state (switches step share)
   (let ((state (numerics-switches-state switches)))
@@ -167,7 +170,8 @@ sentence where no solution goes on."
      (abs (numerics-step-length step))))
 
 (defun numerics-cut-share (switches step zero short)
-  "To half of SHORT before the ZERO, or over it by a step so short that what it misses is no matter."
+  "To half of SHORT before the ZERO, or over it by a step so short that what it misses is no
+matter."
   (destructuring-bind (share place) zero
     (cond ((numerics-turned-back switches step share place))
           ((> share short) (values (- share (* 0.5d0 short)) nil))
@@ -238,8 +242,8 @@ divided out nothing is said.)"
 (defparameter *numerics-worst-missed* 100d0 "Of the tolerance, in a step that stands.")
 
 (defun numerics-switch-part (switches found)
-  "A part of an observer that calls FOUND with a phrase and ends the run before a step that misses far
-more than the tolerance, or beyond which no solution goes on."
+  "A part of an observer that calls FOUND with a phrase and ends the run before a step that misses
+far more than the tolerance, or beyond which no solution goes on."
   (lambda (step)
     (let* ((zeros (numerics-switch-zeros switches step))
            (trouble (and zeros (numerics-switch-trouble switches step zeros))))
