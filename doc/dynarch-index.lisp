@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2848550129 91504
+;;; Made by tools/doc; checksum of doc/*.texi: 1705996309 91534
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -51,10 +51,10 @@
 ("LinearIntegrals" . ("dynarch.info" 72215 654 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 72870 702 "Definitions for Analysis"))
 ("Simulate" . ("dynarch.info" 73851 5593 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 79445 3448 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 82894 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 84857 4475 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 89333 3304 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 79445 3473 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 82919 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 84882 4475 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 89358 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -64,6 +64,6 @@
 ("Definitions for LinModel" . ("dynarch.info" 8777 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39433 7926))
 ("Definitions for Analysis" . ("dynarch.info" 47491 26081))
-("Definitions for Numerics" . ("dynarch.info" 73707 18930))
+("Definitions for Numerics" . ("dynarch.info" 73707 18955))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

@@ -116,8 +116,8 @@ interrupted."
   (let* ((trial (numerics-contest-trial contest)) (error (numerics-attempt-error attempt))
          (seconds (numerics-attempt-seconds attempt)))
     (flet ((few (x) (and x (numerics-few-digits x)))
-           (quartile (share) (and seconds (numerics-rounded-seconds
-                                           (numerics-quantile seconds share)))))
+           (quartile (share) (and seconds (numerics-few-digits
+                                           (max 0d0 (numerics-quantile seconds share))))))
       (apply #'algebra-list
              (append (list (numerics-attempt-method attempt) (numerics-attempt-tolerance attempt) (few error)
                            (few (numerics-attempt-largest attempt)) (numerics-digits-of-error error)

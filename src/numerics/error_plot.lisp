@@ -70,13 +70,13 @@
 
 (defun numerics-floor-items (floors range)
   "Lines across RANGE for FLOORS, (text value type of line)."
-  (cons (numerics-option '$point_size 0)
-        (loop for (text value type) in floors
-              when value
-                append (list (numerics-option '$color "#222222") (numerics-option '$line_type type)
-                             (numerics-option '$key text)
-                             (numerics-points (list (list (first range) value)
-                                                    (list (second range) value)))))))
+  (list* (numerics-option '$point_size 0) (numerics-option '$line_width 2)
+         (loop for (text value type) in floors
+               when value
+                 append (list (numerics-option '$color "#222222") (numerics-option '$line_type type)
+                              (numerics-option '$key text)
+                              (numerics-points (list (list (first range) value)
+                                                     (list (second range) value)))))))
 
 (defun numerics-decades (values)
   "The decades around VALUES."
@@ -109,7 +109,7 @@
   "Below the axis as many lines as there are FAILURES, (text ..), nil where there is only room for them."
   (let ((lines (rest failures)))
     (apply #'numerics-preamble label "error at the end"
-           "set format xy '10^{%L}'" "set grid" "unset label"
+           "set key samplen 2" "set format xy '10^{%L}'" "set grid" "unset label"
            (format nil "set bmargin ~d" (+ 4 (length lines)))
            (when (first failures)
              (loop for text in lines
@@ -122,7 +122,7 @@
   "Draws RECORD, and gives it."
   (let* ((groups (numerics-rows-by-method (cdr ($core_get record '$rows))))
          (lines (numerics-failure-lines groups))
-         (floors (list (list "floor of the reference"
+         (floors (list (list "reference"
                              ($core_get ($core_get record '$reference) '$floor) '$dashes)
                        (list "conditioning" ($core_get record '$conditioning) '$dots))))
     (numerics-draw picture
