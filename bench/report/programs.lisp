@@ -9,9 +9,12 @@
 
 (defun $report_description (path) (archive-description (archive-open path)))
 
+(defparameter *report-program-parts* '($states $inputs $assignments $outputs))
+
 (defun $report_digest (record start span)
   "Of the program RECORD with what is run of it."
-  (archive-digest (format nil "~{~a~%~}" (mapcar #'archive-spell (list record start span)))))
+  (let ((parts (mapcar (lambda (part) (algebra-record-part record part)) *report-program-parts*)))
+    (archive-digest (format nil "~{~a~%~}" (mapcar #'archive-spell (append parts (list start span)))))))
 
 (defun report-constant-p (element)
   (notany (lambda (node) (and (algebra-input-p node) (not (algebra-constant-input-p node))))
