@@ -38,11 +38,10 @@
 
 (defun report-left-out-row (result)
   (flet ((part (key) ($core_get result key)))
-    (let ((jacobian (part '$jacobian)))
-      (append (list (part '$title) (part '$states) (part '$before) (part '$after)
-                    (if (cdr (part '$zero)) (format nil "~{~a~^, ~}" (mapcar #'report-word (cdr (part '$zero)))) "")
-                    (if (part '$mass_constant) "yes" "no"))
-              (if jacobian (cdr jacobian) (list "" "" ""))))))
+    (append (list (part '$title) (part '$states) (part '$before) (part '$after)
+                  (format nil "~{~a~^, ~}" (mapcar #'report-word (cdr (part '$zero))))
+                  (if (part '$mass_constant) "yes" "no"))
+            (cdr (part '$entries)))))
 
 (defun report-left-out (out results)
   (format out "~%## What was left out of each scene~%~%Operations of the right side without numbers for the parameters and ~
