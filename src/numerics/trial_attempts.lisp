@@ -158,6 +158,7 @@ each is the mean, since the clock ticks in microseconds."
                                                         contest)))))))
 
 (defun numerics-number-of-row (row rows)
-  "The number of the row of a run at the time of ROW among those of a reference, ROWS, which may have fewer."
+  "The number of the row of a run at the time of ROW, one of those of a reference, ROWS, which may
+have fewer."
   (let ((start (first (first rows))) (end (first (first (last rows)))))
     (round (* (1- *numerics-trial-points*) (/ (- (first row) start) (- end start))))))
