@@ -142,8 +142,9 @@ steps; for others a part of an observer, or nil."
 (defun numerics-within-share (function) (core-within *numerics-share-of-time* function))
 
 (defun numerics-carry-out (run &optional (within #'numerics-within-share))
-  "Makes the RUN; two values: the sentence of the stop where its time was up or the person interrupted
-it, and whether it was the latter. WITHIN calls a function within a time, as core-within."
+  "Makes the RUN; two values: the sentence of the stop where its time was up or the person
+interrupted it, and whether it was the latter. WITHIN calls a function within a time, as
+core-within."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
          (began (numerics-seconds)) (compiled *numerics-compile-seconds*) (outcome nil))
     (setf (numerics-simulation-began run) (numerics-working-seconds))
