@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 3558687249 91833
+;;; Made by tools/doc; checksum of doc/*.texi: 3988449254 91880
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -50,11 +50,11 @@
 ("RouthLyapunov" . ("dynarch.info" 70416 2117 "Definitions for Analysis"))
 ("LinearIntegrals" . ("dynarch.info" 72534 654 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 73189 702 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 74170 5593 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 79764 3473 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 83238 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 85201 4475 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 89677 3304 "Definitions for Numerics"))
+("Simulate" . ("dynarch.info" 74170 5640 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 79811 3473 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 83285 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 85248 4475 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 89724 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -64,6 +64,6 @@
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 7926))
 ("Definitions for Analysis" . ("dynarch.info" 47581 26310))
-("Definitions for Numerics" . ("dynarch.info" 74026 18955))
+("Definitions for Numerics" . ("dynarch.info" 74026 19002))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))
