@@ -49,7 +49,7 @@
                 (mapcar (lambda (method) (report-standing-row method results))
                         (remove-duplicates (loop for result in results append (report-methods result)) :from-end t))))
 
-;;; A scene in words
+;;; Stiff scenes and others in words
 
 (defun report-stiff-p (result)
   "Whether the explicit method takes more than three times as long as the implicit one, or fails, at the first of the errors which
@@ -58,6 +58,34 @@ that one reaches."
          (implicit (and error (report-time-to error result '$radau)))
          (explicit (and error (report-time-to error result '$dop853))))
     (and implicit (or (null explicit) (> explicit (* 3 implicit))))))
+
+(defun report-fails-p (method result)
+  (notany #'report-reached-p (report-rows-of result method)))
+
+(defun report-middle (numbers)
+  (let ((sorted (sort (remove nil numbers) #'<)))
+    (and sorted (nth (floor (length sorted) 2) sorted))))
+
+(defun report-class-words (method results)
+  "What METHOD does on RESULTS: a text."
+  (let ((failing (count-if (lambda (result) (report-fails-p method result)) results))
+        (middle (report-middle (report-quotients method results))))
+    (format nil "~a ~:[~;comes to the end in ~d of them~:[~;, and ~]~]~@[takes ~,1f times as long as the quickest in the middle~]"
+            (report-name method) (plusp failing) (- (length results) failing) middle middle)))
+
+(defun report-class (out title results)
+  (when results
+    (format out "* **~a** (~d: ~{~a~^; ~}): ~{~a~^; ~}.~%" title (length results)
+            (mapcar (lambda (result) ($core_get result '$title)) results)
+            (mapcar (lambda (method) (report-class-words method results))
+                    (remove-duplicates (loop for result in results append (report-methods result)) :from-end t)))))
+
+(defun report-classes (out results)
+  (format out "~%## Stiff or not~%~%")
+  (report-class out "Stiff" (remove-if-not #'report-stiff-p results))
+  (report-class out "Not stiff" (remove-if #'report-stiff-p results)))
+
+;;; A scene in words
 
 (defun report-runs-of-errors (result)
   "((method error ..) ..): the quickest and the errors, one after the other, for which it is."
@@ -104,6 +132,7 @@ that one reaches."
   (with-open-file (out file :direction :output :if-exists :supersede)
     (report-copy-head out head machine)
     (report-quickest out (cdr results))
+    (report-classes out (cdr results))
     (format out "~%## How far each is behind the quickest~%~%Over all scenes and the errors above: how many times it was asked ~
                  for an error that some method reaches, and reached it; was quickest, within 1.5 and 5 times the quickest; ~
                  the middle and the worst quotient.~%")
