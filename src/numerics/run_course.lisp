@@ -115,7 +115,7 @@ steps; for others a part of an observer, or nil."
     (cond ((null switches) nil)
           ((member (numerics-wishes-method wishes) *numerics-cutting-methods*)
            (setf (numerics-controls-inspect controls)
-                 (lambda (step) (numerics-inspect-switches switches step)))
+                 (lambda (step guessed) (numerics-inspect-switches switches step guessed)))
            nil)
           (t (numerics-switch-part
               switches (lambda (trouble) (setf (numerics-simulation-fault run) trouble)))))))
