@@ -18,7 +18,10 @@
   errors ; of each state, at most about, a vector
   rows)  ; lists (time . states) of double-float numbers; nil where nothing could be had
 
-(defun numerics-reference-of (problem controls start times &key (most-steps 5000) projection)
+(defparameter *numerics-most-series-steps* 5000)
+
+(defun numerics-reference-of (problem controls start times
+                              &key (most-steps *numerics-most-series-steps*) projection)
   "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the
 exact TIMES; the last of these is the end. With no steps no series are tried. PROJECTION is the part
 of an observer that brings states back to constraints, or nil."

@@ -155,6 +155,13 @@ many runs each is the mean, since the clock ticks in microseconds."
       (setf (numerics-attempt-largest attempt)
             (max (numerics-attempt-error attempt)
                  (loop for row in rows
-                       for k below (numerics-rows-count found)
-                       maximize (numerics-distance-to row (numerics-row-state found k)
-                                                      contest)))))))
+                       for k = (numerics-number-of-row row rows)
+                       when (< k (numerics-rows-count found))
+                         maximize (numerics-distance-to row (numerics-row-state found k)
+                                                        contest)))))))
+
+(defun numerics-number-of-row (row rows)
+  "The number of the row of a run at the time of ROW, one of those of a reference, ROWS, which may
+have fewer."
+  (let ((start (first (first rows))) (end (first (first (last rows)))))
+    (round (* (1- *numerics-trial-points*) (/ (- (first row) start) (- end start))))))

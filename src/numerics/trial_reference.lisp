@@ -25,7 +25,9 @@
       (numerics-with-masked-traps
         (numerics-reference-of
          (numerics-simulation-problem run) (numerics-simulation-controls run) start times
-         :most-steps (if (numerics-series-begin-p run start (first times)) 5000 0)
+         :most-steps (if (numerics-series-begin-p run start (first times))
+                         *numerics-most-series-steps*
+                         0)
          :projection (and (numerics-simulation-constraints run)
                           (numerics-projection-part (numerics-simulation-constraints run))))))))
 
