@@ -159,10 +159,11 @@ sentence where no solution goes on."
   (let ((zeros (numerics-switch-zeros switches step)))
     (when zeros
       (let ((missed (numerics-missed-in-all switches step zeros)))
-        (when (> missed *numerics-most-missed*)
-          (numerics-cut-share switches step (first zeros)
-                              (max (/ 0.1d0 missed)
-                                   (numerics-shortest-share switches step))))))))
+        (if (> missed *numerics-most-missed*)
+            (numerics-cut-share switches step (first zeros)
+                                (max (/ 0.1d0 missed) (numerics-shortest-share switches step)))
+            (destructuring-bind (share place) (first zeros)
+              (numerics-turned-back switches step share place)))))))
 
 (defun numerics-shortest-share (switches step)
   "Of STEP, that a method makes."
