@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # tools/demo and tools/test need no make; these are their short names, and what is not run each time.
 
-.PHONY: demo test bench bench-peers bench-numerics fuzz test-maxima doc dist
+.PHONY: demo test bench bench-peers bench-numerics bench-verdicts fuzz test-maxima doc dist
 
 demo:
 	@tools/demo
@@ -20,6 +20,10 @@ bench-peers:
 # Runs by us and by SciPy, heyoka, SUNDIALS, Pinocchio and gcc (into the user's cache), side by side. Under ten minutes.
 bench-numerics:
 	@bench/numerics/run
+
+# Verdicts on stability by doubles, bigfloats and exactly, beside the truth: a page and a plot. Three minutes.
+bench-verdicts:
+	@bench/verdicts/run
 
 # The adversaries: random cases that try to refute what is claimed, of which the tests run a few.
 fuzz:
