@@ -2,7 +2,8 @@
 ;;;
 ;;; An expression in factors over the integers, as far as that takes no longer than seconds:
 ;;; Maxima's factor is quick for long products, but a sum of high degree, such as x^1000-x-1, keeps
-;;; it busy for ever.  Of such a sum the powers come out that all its terms have.
+;;; it busy for ever.  Of such a sum the powers come out that all its terms have.  Large numbers
+;;; under roots keep it busy for as long: within factor (5.46) they are factored without limit.
 
 (in-package :maxima)
 
@@ -17,12 +18,34 @@
   "E as a product; what is longer than SIZE, or of high degree, is one factor."
   (cond ((or (atom e) (> (algebra-size e) size)) e)
         ((<= (algebra-degree-at-most e) *algebra-factored-degree*)
-         (or (algebra-quietly (lambda () ($factor e))) e))
+         (or (algebra-quietly (lambda () ($algebra_factor e))) e))
         ((mtimesp e) (muln (loop for part in (cdr e) collect (algebra-in-factors part size)) nil))
         ((and (mexptp e) (typep (caddr e) '(integer 2)))
          (power (algebra-in-factors (cadr e) size) (caddr e)))
         ((mplusp e) (algebra-monomial-in-front e))
         (t e)))
+
+(defun $algebra_factor (e)
+  "Maxima's factor, to which roots of large numbers are names."
+  (let ((roots '()))
+    (labels ((named (e)
+               (cond ((atom e) e)
+                     ((and (mexptp e) (ratnump (caddr e)) (algebra-large-number-in-p (cadr e)))
+                      (power (name (cadr e) (caddr (caddr e))) (cadr (caddr e))))
+                     (t (simplifya (cons (list (caar e)) (mapcar #'named (cdr e))) t))))
+             (name (base degree)
+               (let ((root (power base (algebra-maxima-rational (/ degree)))))
+                 (or (car (rassoc root roots :test #'alike1))
+                     (caar (push (cons (gensym "ROOT") root) roots))))))
+      (let ((hidden (named e)))
+        (if roots
+            (resimplify (sublis roots ($ratdisrep ($factor hidden))))
+            ($factor e))))))
+
+(defun algebra-large-number-in-p (e)
+  (if (atom e)
+      (and (integerp e) (> (abs e) (expt 10 14)))
+      (some #'algebra-large-number-in-p (cdr e))))
 
 (defun algebra-degree-at-most (e)
   "Not less than the degree of E in names, functions and exponentials together."

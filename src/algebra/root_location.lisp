@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/constant_sign" "algebra/interval"))
+  (core-require "algebra/size" "algebra/constant_sign" "algebra/interval" "algebra/sturm"))
 
 ;;; Signed subresultants of two polynomials with real constants as coefficients, and what follows
 ;;; from their signs: Cauchy's index of Q/P and the greatest common divisor (Basu, Pollack, Roy,
@@ -18,7 +18,8 @@
 ;;; coefficients are exact; others are intervals.  Each coefficient that comes is a determinant of
 ;;; known size: Hadamard's inequality bounds it in every embedding and, by its norm, from below; an
 ;;; interval under that bound is 0.  Where neither its sign nor 0 is proved, all is done again with
-;;; more digits.
+;;; more digits.  Of rational polynomials Sturm's chain of whole, primitive remainders serves: its
+;;; numbers are half as long.
 
 (defvar *algebra-field-degree* nil "degree of the field of all coefficients; nil: not algebraic")
 
@@ -92,16 +93,25 @@
 ;;; The sequence.
 
 (defstruct (algebra-sequence (:conc-name algebra-sequence-))
-  signs     ; ((degree . sign of the principal coefficient) ..), falling degrees
+  index     ; Cauchy's, of Q/P from -inf to inf
   divisor)  ; coefficients of the last that does not vanish
 
 (defun algebra-subresultants (p q)
   "The sequence of P and Q, real polynomials, the degree of Q below that of P."
   (let* ((a (algebra-trimmed-real (algebra-real-at p) (algebra-rows-bits p q '(1 . 0))))
          (b (algebra-trimmed-real (algebra-real-at q) (algebra-rows-bits p q '(0 . 1)))))
-    (if (minusp (algebra-n-sign (car a) nil))
-        (algebra-subresultants-of (mapcar #'algebra-n-minus a) (mapcar #'algebra-n-minus b) p q)
-        (algebra-subresultants-of a b p q))))
+    (cond ((every #'rationalp (append a b)) (algebra-rational-sequence a b))
+          ((plusp (algebra-n-sign (car a) nil)) (algebra-subresultants-of a b p q))
+          (t (algebra-subresultants-of (mapcar #'algebra-n-minus a) (mapcar #'algebra-n-minus b)
+                                       p q)))))
+
+(defun algebra-rational-sequence (a b)
+  (let ((chain (algebra-remainders (algebra-primitive a) (algebra-primitive b))))
+    (make-algebra-sequence
+     :index (loop for (f g) on chain
+                  when (and g (oddp (- (length f) (length g))))
+                    sum (* (signum (car f)) (signum (car g))))
+     :divisor (car (last chain)))))
 
 (defun algebra-n-minus (a) (algebra-n- 0 a))
 
@@ -111,7 +121,7 @@
 (defun algebra-subresultants-of (a b p q)
   "A and B the coefficients of P and Q, that of the highest power of A positive."
   (let* ((top (1- (length a))) (bottom (1- (length b)))
-         (signs (list (cons top 1)))
+         (signs (list (cons top 1))) ; of the principal coefficients, with their degrees
          (last-a 1) (principal 1) (j top))
     (loop until (null b)
           do (let* ((k (1- (length b)))
@@ -122,7 +132,7 @@
                (push (cons k (algebra-n-sign next nil)) signs)
                (psetq last-a (car b) principal next j k
                       a b b (algebra-trimmed-real rest (algebra-rows-bits p q rows)))))
-    (make-algebra-sequence :signs (nreverse signs) :divisor a)))
+    (make-algebra-sequence :index (algebra-signs-index (nreverse signs)) :divisor a)))
 
 (defun algebra-principal (leading principal gap)
   "s_k of a subresultant with the LEADING coefficient, GAP degrees below that of PRINCIPAL."
@@ -148,9 +158,8 @@
                                (nthcdr (1- (length b)) a))))))
   a)
 
-(defun algebra-sequence-index (sequence)
-  "Cauchy's index of Q/P from -inf to inf."
-  (loop for ((j . sign) (k . next)) on (algebra-sequence-signs sequence)
+(defun algebra-signs-index (signs)
+  (loop for ((j . sign) (k . next)) on signs
         while k
         when (oddp (- j k))
           sum (* sign next (if (member (mod (- j k) 4) '(0 1)) 1 -1))))
@@ -161,10 +170,15 @@ coefficient a of S*P the coefficients of a*g are algebraic integers (Gauss), in 
 2^degree times the length of S*P (Landau, Mignotte)."
   (make-algebra-real
    :coefficients (lambda ()
-                   (let ((g (algebra-sequence-divisor (algebra-subresultants p q))))
-                     (cons 1 (loop for c in (cdr g) collect (algebra-n/ c (car g))))))
+                   (algebra-monic (algebra-sequence-divisor (algebra-subresultants p q))))
    :norm (+ (algebra-sequence-degree sequence) (algebra-real-norm p))
    :scale (algebra-real-norm p)))
+
+(defun algebra-monic (g)
+  "G over its leading coefficient; whole where rational, which has the same roots."
+  (if (every #'rationalp g)
+      (algebra-primitive g)
+      (cons 1 (loop for c in (cdr g) collect (algebra-n/ c (car g))))))
 
 (defun algebra-sequence-degree (sequence)
   "The degree of the greatest common divisor."
@@ -178,10 +192,13 @@ coefficient a of S*P the coefficients of a*g are algebraic integers (Gauss), in 
     (multiple-value-bind (norm scale)
         (if (member nil bounds) (values 0 0) (algebra-joint-bound bounds))
       (make-algebra-real
-       :coefficients (lambda ()
-                       (loop for c in coefficients
-                             collect (or (algebra-rational-number c) (algebra-i-of c))))
+       :coefficients (lambda () (algebra-real-numbers coefficients))
        :norm norm :scale scale))))
+
+(defun algebra-real-numbers (coefficients)
+  (let ((numbers (loop for c in coefficients
+                       collect (or (algebra-rational-number c) (algebra-i-of c)))))
+    (if (every #'rationalp numbers) (algebra-primitive numbers) numbers)))
 
 (defun algebra-joint-bound (bounds)
   "Logarithms of the length of S*c and of S, S = lcm(m)*l_1*l_2*.."

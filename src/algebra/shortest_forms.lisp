@@ -13,8 +13,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/normal" "algebra/general_form"
-                "algebra/quotient" "algebra/readable"))
+  (core-require "algebra/factoring" "algebra/general_form" "algebra/kernels" "algebra/normal"
+                "algebra/quotient" "algebra/readable" "algebra/size"))
 
 (defun $algebra_collected (e)
   "The canonical form of E, collected."
@@ -170,5 +170,5 @@
 
 (defun algebra-factored (p)
   (if (< (algebra-monomials p) 300)
-      ($factor (algebra-general p))
+      ($algebra_factor (algebra-general p))
       (algebra-content-in-front p)))

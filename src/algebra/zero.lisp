@@ -157,11 +157,18 @@ products apart, all multiples of angles expanded, nouns taken apart."
     (with-algebra-zero-form
       (let ((skeleton (algebra-scan e)))
         (algebra-order-kernels)
-        (if (null (algebra-sampled-zero skeleton))
+        (if (algebra-seen-nonzero-p e (algebra-sampled-zero skeleton))
             'not-zero
             (let ((*algebra-may-give-up* t))
               (catch 'algebra-too-large
                 (algebra-expanded-test (algebra-evaluate skeleton)))))))))
+
+(defun algebra-seen-nonzero-p (e sampled)
+  "E is not 0 at a point: by the answer SAMPLED modulo a prime, else at one of a few points by
+intervals, which costs less than expanding roots."
+  (if (eq sampled '$unknown)
+      (and (not (algebra-constant-p e)) (algebra-nonzero-somewhere-p e 4))
+      (null sampled)))
 
 (defun algebra-expanded-test (quotient)
   (when (eq 'zero (algebra-polynomial-test (car (algebra-reduce (cdr quotient)))))
@@ -266,9 +273,9 @@ products apart, all multiples of angles expanded, nouns taken apart."
 
 ;;; Points with rational coordinates at which the facts of the context hold.
 
-(defun algebra-nonzero-somewhere-p (e)
+(defun algebra-nonzero-somewhere-p (e &optional (attempts 24))
   "E is proved not zero at one of some rational points that contradict no fact."
-  (loop for attempt from 1 to 24
+  (loop for attempt from 1 to attempts
         thereis (algebra-nonzero-at-p e attempt)))
 
 (defun algebra-nonzero-at-p (e attempt)

@@ -43,7 +43,8 @@
                (fboundp (numerics-odepack "DLSODE")))
     (handler-case
         (let* ((*standard-output* (make-broadcast-stream)) (*error-output* *standard-output*))
-          (handler-bind ((warning #'muffle-warning)) ($load "dlsode")))
+          (handler-bind ((warning #'muffle-warning))
+            (core-unhurried (lambda () ($load "dlsode")))))
       (error () (core-error "dlsode of Maxima's share cannot be loaded; take method = radau"))))
   (symbol-function (numerics-odepack "DLSODE")))
 

@@ -149,5 +149,5 @@
      (algebra-field '$separatrices (length (numerics-portrait-separatrices portrait)))
      (algebra-field '$trajectories (length (numerics-portrait-trajectories portrait)))
      (algebra-field '$about (cons '(mlist simp) (reverse (numerics-rests-about rests))))
-     (algebra-field '$file (numerics-draw picture (numerics-portrait-preamble portrait)
-                                          (numerics-portrait-items portrait))))))
+     (algebra-field '$file (numerics-draw picture (cons (numerics-portrait-preamble portrait)
+                                                (numerics-portrait-items portrait)))))))

@@ -99,7 +99,8 @@ number in a first step."
     (replace (numerics-radau-run-moment inner) (numerics-step-from (numerics-radau-run-seen run)))
     (replace (numerics-radau-run-before inner) (numerics-radau-run-before run))
     (replace (numerics-radau-run-entries inner) (numerics-radau-run-entries run))
-    (setf (numerics-radau-run-step inner)
+    (setf (numerics-radau-run-trust inner) 0
+          (numerics-radau-run-step inner)
           (* *numerics-radau-inner-share* (numerics-radau-run-step run)))
     (numerics-radau-weigh inner nil)
     (numerics-radau-guess-stages inner)

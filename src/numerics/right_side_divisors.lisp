@@ -60,3 +60,6 @@
                      ((algebra-input-p e) (algebra-node-left e))
                      (t (algebra-written-node e #'written)))))
       (core-words (list (written element))))))
+
+(defun numerics-value-text (element)
+  (or (numerics-element-words element) "its value"))

@@ -125,11 +125,15 @@ without constraints."
               maximize (loop for value in (funcall function row)
                              maximize (abs (core-bigfloat-rational value))))))))
 
+(defun numerics-start-residual (run start time digits)
+  "What START, exact values, violates the constraints by, computed to more than DIGITS; nil without
+any."
+  (numerics-exact-residual run (list (numerics-big-start (cons time start) (+ digits 10)))
+                           (+ digits 10)))
+
 (defun numerics-check-exact-start (run start time digits)
   "An error where START violates the constraints beyond DIGITS."
-  (let ((residual (numerics-exact-residual
-                   run (list (numerics-big-start (cons time start) (+ digits 10)))
-                   (+ digits 10))))
+  (let ((residual (numerics-start-residual run start time digits)))
     (when (and residual (> residual (expt 10 (- digits))))
       (core-error "the start is off the constraints by ~a; for ~d digits give it exactly, such as ~
                    acos(1/3)"

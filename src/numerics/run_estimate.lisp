@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/conditioning"
+  (core-require "algebra/program_record" "numerics/conditioning"
                 "numerics/decimals" "numerics/native" "numerics/observers" "numerics/problem"
                 "numerics/run" "numerics/run_course" "numerics/run_options"
                 "numerics/step_control"))
@@ -37,24 +37,7 @@
 (defun numerics-other-run (run)
   "Two values: a run of the same, at a finer tolerance or step where there is one, and what it is."
   (multiple-value-bind (controls how) (numerics-other-controls run)
-    (let ((other (copy-numerics-simulation run)))
-      (setf (numerics-simulation-controls other) controls
-            (numerics-simulation-drifts other) nil
-            (numerics-simulation-outcome other) nil
-            (numerics-simulation-constraints other)
-            (numerics-fresh-constraints (numerics-simulation-constraints run))
-            (numerics-simulation-rows other)
-            (numerics-wished-rows other (aref (numerics-simulation-moment run) 0)
-                                  (numerics-controls-end controls))
-            (numerics-simulation-events other) (numerics-wished-events other))
-      (values other how))))
-
-(defun numerics-fresh-constraints (constraints)
-  "CONSTRAINTS as they were before a run, with the same places to work in."
-  (when constraints
-    (let ((copy (copy-numerics-constraints constraints)))
-      (setf (numerics-constraints-singular copy) nil (numerics-constraints-largest copy) 0d0)
-      copy)))
+    (values (numerics-run-again run controls (numerics-simulation-wishes run)) how)))
 
 (defun numerics-other-controls (run)
   "A step is halved: it may be the only one. The tolerance of a method with one step stays, since
@@ -76,10 +59,6 @@ the order follows from it."
                 (format nil "~:[~;at most about the ~]distance to a run at a tolerance of ~a"
                         (> factor 1)
                         (numerics-short-number (* factor relative)))))))
-
-(defun numerics-row-state (rows k)
-  (let ((place (* k (numerics-rows-width rows))))
-    (subseq (numerics-rows-numbers rows) (1+ place) (+ place (numerics-rows-width rows)))))
 
 (defun numerics-rows-distance (run other)
   "The largest distance of rows of RUN and OTHER at the same time, and of their ends."

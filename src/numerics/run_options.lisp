@@ -109,6 +109,16 @@ methods with a fixed one, or 0; ESTIMATE and CONDITIONING: whether these are wan
       (core-error "an absolute tolerance is greater than 0"))
     list))
 
+;;; The length of the first step, of methods with a fixed one of all; 0: they choose it
+
+(defun numerics-read-first-step (step)
+  (unless (eql step 0)
+    (let ((length (numerics-double step "first_step")))
+      (unless (plusp length)
+        (core-error "first_step is the length of a step, greater than 0; found ~a"
+                    (core-words (list step))))
+      length)))
+
 ;;; The start: values of the states, names in the order NAMES
 
 (defun numerics-velocity-p (name) (and (consp name) (eq (caar name) '%derivative)))

@@ -10,7 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions"
+                "algebra/program_nodes" "numerics/decimals"
                 "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
                 "numerics/problem" "numerics/program" "numerics/routine" "numerics/sparse"
                 "numerics/step_control"))
@@ -24,6 +25,15 @@
           (unless (or (not (algebra-node-p argument))
                       (member (algebra-node-operation argument) '(:sign :absolute)))
             (pushnew argument found)))))))
+
+(defun numerics-jumps-of-states (program)
+  "The arguments of signs in PROGRAM's rates that depend on states: where they vanish X may jump."
+  (with-numerics-program program
+    (loop for node in (algebra-live-nodes (numerics-program-rates program))
+          when (and (eq (algebra-node-operation node) :sign)
+                    (intersection (algebra-inputs-of (list (algebra-node-left node)))
+                                  (numerics-program-names program) :test #'algebra-same-name-p))
+            collect (algebra-node-left node))))
 
 (defstruct numerics-switches
   elements events rates mass timed                    ; the last three of the problem
@@ -62,10 +72,10 @@ where there are none."
 (defun numerics-switch-zeros (switches step)
   "Where arguments vanish within STEP, (share place) in order."
   (let* ((events (numerics-switches-events switches))
-         (zeros (progn (numerics-sample-events events step)
-                       (numerics-begin-events events step)
-                       (loop for (share place) in (numerics-wanted-zeros events step)
+         (zeros (progn (setf (numerics-events-sides events) nil)
+                       (loop for (share place) in (numerics-zeros-of-step events step)
                              unless (= share 0d0) collect (list share place)))))
+    (numerics-sample-events events step)
     (sort (append zeros (loop for (share) in zeros
                               append (numerics-zeros-about events step share)))
           #'< :key #'first)))
@@ -144,16 +154,21 @@ another."
 
 (defparameter *numerics-most-missed* 2d0 "Of the tolerance, in a step over a jump or a corner.")
 
-(defun numerics-inspect-switches (switches step)
+(defun numerics-inspect-switches (switches step guessed)
   "nil where STEP may stand; else the share of it that may, and whether that goes over a zero; or a
-sentence where no solution goes on."
+sentence where no solution goes on. Of a step that was only GUESSED all this counts where X follows
+it to the first zero."
   (let ((zeros (numerics-switch-zeros switches step)))
-    (when zeros
+    (when (and zeros (or (not guessed)
+                         (< (numerics-missed switches step 0d0 (first (first zeros))) 1d0)))
       (let ((missed (numerics-missed-in-all switches step zeros)))
-        (when (> missed *numerics-most-missed*)
-          (numerics-cut-share switches step (first zeros)
-                              (max (/ 0.1d0 missed)
-                                   (numerics-shortest-share switches step))))))))
+        (destructuring-bind (share place) (first zeros)
+          (if (> missed *numerics-most-missed*)
+              (let ((short (max (/ 0.1d0 missed) (numerics-shortest-share switches step))))
+                (if (and guessed (> share short))
+                    (values (- share (* 0.5d0 short)) nil)
+                    (numerics-cut-share switches step (first zeros) short)))
+              (and (not guessed) (numerics-turned-back switches step share place))))))))
 
 (defun numerics-shortest-share (switches step)
   "Of STEP, that a method makes."

@@ -43,7 +43,7 @@
   (core-bigfloat (/ x (ash 1 bits)) digits))
 
 (defun numerics-double-of-fixed (x bits)
-  (numerics-rounded (/ x (ash 1 bits))))
+  (numerics-small-double (/ x (ash 1 bits))))
 
 ;;; Functions. A fault ends the step; it is a text that completes "at t = .. there is".
 

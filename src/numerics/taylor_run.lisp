@@ -133,11 +133,11 @@ Second, how many binary digits that coefficient has."
                       for power = share then (ash (* power share) (- bits))
                       for k from 1 below (numerics-expansion-order expansion)
                       sum (ash (* power (abs (svref series k))) (- bits))))))
-      (loop for (y . x) in (numerics-expansion-corners expansion)
+      (loop for (text y . x) in (numerics-expansion-corners expansion)
             do (loop until (or (free-p y) (and x (plusp (svref x 0)) (free-p x)))
                      do (setq step (round step 2))
                         (when (numerics-taylor-too-short-p run step)
-                          (numerics-series-fault "a corner of an absolute value or an angle"))))
+                          (numerics-series-fault text))))
       step)))
 
 (defun numerics-taylor-too-short-p (run step)
