@@ -107,7 +107,8 @@
       (t (numerics-function-rules operation out x expansion)))))
 
 ;;; The series of a function may go on smoothly past a place where the function itself does not:
-;;; sqrt of a square that passes 0, asin(sin(t)) past %pi/2, exp(-1/t^2), all of whose terms vanish at 0.
+;;; sqrt of a square that passes 0, asin(sin(t)) past %pi/2, exp(-1/t^2), all of whose terms vanish
+;;; at 0.
 
 (defun numerics-note-corner (expansion text y &optional x)
   "No step goes past a zero of the series Y where the series X, if there is one, is negative; TEXT
