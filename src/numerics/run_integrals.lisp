@@ -45,10 +45,9 @@ these.")
   "INTEGRAL without a power that vanishes, or under the name of a balance."
   (destructuring-bind (name value size power) integral
     (if (numerics-nought-p power)
-        (make-forms-first-integral :name name :value value :size size)
-        (make-forms-first-integral
-         :name (core-symbol (format nil "~a_balance" (core-spelling name)))
-         :value value :size size :power power))))
+        (forms-first-integral name value size)
+        (forms-first-integral (core-symbol (format nil "~a_balance" (core-spelling name)))
+                              value size power))))
 
 (defun numerics-integral-routine (run elements)
   (let ((program (numerics-simulation-program run)))
