@@ -5,12 +5,15 @@
 # errors, saving, the dialog, the messages and the help follow.
 
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
+. "$here/../tools/find"
 . "$here/check"
+find_maxima || exit 1
 repository=$PWD/copy
 mkdir "$repository" && cp -r "$here/../tools" "$here/../src" "$here/../doc" "$here/../tests" "$here"/../*.mac "$repository"
 cp "$here/../examples/spherical_pendulum.txt" pendulum.txt
+MAXIMA=$maxima
 XDG_CACHE_HOME=$PWD/cache
-export XDG_CACHE_HOME
+export MAXIMA XDG_CACHE_HOME
 
 # --- a function: face, register, mathematics, manual, test ---
 

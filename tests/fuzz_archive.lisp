@@ -248,7 +248,9 @@ no word for them; else the first for which neither holds."
 (defun fuzz-again (value)
   "VALUE spelled and read; what is too large to be written counts as read back."
   (let ((text (core-attempt (lambda () (archive-spell value)))))
-    (if text (archive-parse-value (car text) :relations t :file "fuzz.txt") value)))
+    (if text (archive-parse-value (fuzz-stretch (car text)) :relations t) value)))
+
+(defun fuzz-stretch (text) (make-archive-stretch :text text :file "fuzz.txt"))
 
 (defun fuzz-examples ()
   "The bytes of the example archives, lists."
@@ -308,8 +310,8 @@ first cut that is not."
   "`read', or `refused' with a place, and in time; else what went wrong."
   (let ((trouble (nth-value 1
                             (fuzz-in-time (lambda ()
-                                            (archive-parse-value text :file "fuzz.txt" :relations
-                                                                 t))))))
+                                            (archive-parse-value (fuzz-stretch text)
+                                                                 :relations t))))))
     (cond ((null trouble) '$read)
           ((or (search "failed inside" trouble) (not (fuzz-placed-p trouble))) trouble)
           (t '$refused))))

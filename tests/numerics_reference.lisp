@@ -32,10 +32,11 @@
                      (numerics-reference-of problem (test-controls (car (last times)) 1e-8 '())
                                             (cdr start) (cdr times)
                                             :most-steps (or (first more) 5000)))))
-    (test-list (and (numerics-reference-state reference)
-                    (test-numbers (numerics-reference-state reference)))
-               (numerics-reference-floor reference)
-               (numerics-reference-method reference))))
+    (let ((rows (numerics-reference-rows reference)))
+      (test-list (and rows (test-numbers (rest (first (last rows)))))
+                 (and rows (numerics-reference-floor reference
+                                                     (test-vector (mapcar (constantly 1) (cdr start)))))
+                 (numerics-reference-method reference)))))
 
 (defun $test_problem_of_program (names rates)
   "The problem names' = RATES with its program."

@@ -1,8 +1,13 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A peer: solve_ivp of SciPy, right sides as one writes them in Python: NumPy where vectors are long, else floats."""
+"""A peer: SciPy, right sides as one writes them in Python: NumPy where vectors are long, else floats. Methods: those of
+solve_ivp, and ode-dop853, Hairer's program by scipy.integrate.ode.
+    scipy_peer.py                              the scenes below
+    scipy_peer.py LIBRARY NAME T0 T1 X1 ..     one scene, its rates those that ExportProgram wrote, called through ctypes"""
+import ctypes
+import sys
 from math import cos, exp, pi, sin
 import numpy as np
-from scipy.integrate import solve_ivp
+from scipy.integrate import ode, solve_ivp
 from served import serve
 
 g = 9.81
@@ -48,6 +53,20 @@ def ring_modulator(t, y):
             (-y1 + u1 - (Ri + Rg1) * y14) / Ls1, (-y2 - (Rc + Rg1) * y15) / Ls1]
 
 
+def van_der_pol(mu):
+    def rates(t, x):
+        y, v = x.tolist()
+        return [v, mu * (1 - y * y) * v - y]
+
+    return rates
+
+
+def robertson(t, x):
+    a, b, c = x.tolist()
+    slow, middle, fast = 0.04 * a, 1e4 * b * c, 3e7 * b * b
+    return [middle - slow, slow - middle - fast, fast]
+
+
 def ladder(n):
     k = np.arange(1, n + 1)
     of_inductor, resistance, of_capacitor, leak = 10.0 + k % 3, 1 / (5.0 + k % 4), 20.0 + k % 5, 1 / (10.0 + k % 2)
@@ -70,11 +89,52 @@ scenes = {
     "pleiades": (pleiades, np.array([3, 3, -1, -3, 2, -2, 2, 3, -3, 2, 0, 0, -4, 4.0] +
                                     [0, 0, 0, 0, 0, 1.75, -1.5, 0, 0, 0, -1.25, 1, 0, 0]), 3),
     "ring_modulator": (ring_modulator, np.zeros(15), 1e-3),
+    "vanderpol": (van_der_pol(1e3), np.array([2.0, 0]), 2e3), "robertson": (robertson, np.array([1.0, 0, 0]), 1e11),
     "ladder100": ladder(100), "ladder1000": ladder(1000),
 }
 
 
+def exported(library, name, _, end, *state):
+    """The scene of a routine in C, whose point is the time (from 0 on) and the states."""
+    point, out = np.empty(len(state) + 1), np.empty(len(state))
+    routine, places = getattr(ctypes.CDLL(library), name), [ctypes.c_void_p(array.ctypes.data) for array in (point, out)]
+    routine.restype = None
+
+    def rates(t, x):
+        point[0], point[1:] = t, x
+        routine(*places)
+        return out.copy()
+
+    return rates, np.array(state, float), float(end)
+
+
+if sys.argv[1:]:
+    scenes = {sys.argv[2]: exported(*sys.argv[1:])}
+counts = {}
+
+
+def with_ode(scene, tolerance, scale):
+    rates, start, end = scenes[scene]
+
+    def to_end(function):
+        solver = ode(function).set_integrator("dop853", rtol=tolerance, atol=scale * tolerance, nsteps=10 ** 8)
+        state = solver.set_initial_value(start, 0).integrate(end)
+        return state if solver.successful() else None
+
+    def counted(t, x):
+        counts[scene, tolerance, scale] += 1
+        return rates(t, x)
+
+    if (scene, tolerance, scale) not in counts:  # it does not tell, so that a run of its own counts
+        counts[scene, tolerance, scale] = 0
+        to_end(counted)
+    state = to_end(rates)
+    return None if state is None else (counts[scene, tolerance, scale], state)
+
+
 def run(scene, method, tolerance, scale):
+    if method == "ode-dop853":
+        return with_ode(scene, tolerance, scale)
     rates, start, end = scenes[scene]
     found = solve_ivp(rates, (0, end), start, method=method, rtol=tolerance, atol=scale * tolerance, t_eval=[end])
     return (found.nfev, found.y[:, -1]) if found.success else None

@@ -1,94 +1,72 @@
 /* SPDX-License-Identifier: GPL-2.0-or-later
-   A peer: CVODE (BDF, dense, its own differences) and ARKODE (explicit, order 8) of SUNDIALS on the rates
-   that ExportProgram wrote, compiled with -DRATES=name.
-     peer N T0 T1 X1 .. XN      then lines  SCENE METHOD TOLERANCE SCALE REPEATS
-   Each line is answered by: seconds of the process for one run, evaluations, the state at T1. */
+   A peer, see worker.h: CVODE (BDF, dense, its own differences; Adams, with iterations of the fixed point) and ARKODE
+   (explicit, order 8) of SUNDIALS. */
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
+#include "worker.h"
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-void RATES(const double *point, double *rates);
-
-static int n;
-static long evaluations;
-static double *point; /* time and states */
+static const long most_steps = 100000000;
+static SUNContext context;
 
 static int rates_of(sunrealtype t, N_Vector x, N_Vector rates, void *data) {
-  point[0] = t;
-  memcpy(point + 1, N_VGetArrayPointer(x), n * sizeof(double));
-  evaluations++;
-  RATES(point, N_VGetArrayPointer(rates));
+  (void)data;
+  rates_at(t, N_VGetArrayPointer(x), N_VGetArrayPointer(rates));
   return 0;
 }
 
-static void stop(const char *what) {
-  printf("failed: %s\n", what);
-  exit(1);
-}
-
-static int with_cvode(SUNContext context, double from, double to, N_Vector x, double tolerance, double scale) {
+static int with_cvode(int kind, double from, double to, N_Vector x, double tolerance, double scale) {
   double t = from;
-  void *memory = CVodeCreate(CV_BDF, context);
-  SUNMatrix matrix = SUNDenseMatrix(n, n, context);
-  SUNLinearSolver solver = SUNLinSol_Dense(x, matrix, context);
+  void *memory = CVodeCreate(kind, context);
+  SUNMatrix matrix = NULL;
+  SUNLinearSolver linear = NULL;
+  SUNNonlinearSolver nonlinear = NULL;
   int flag = CVodeInit(memory, rates_of, from, x) || CVodeSStolerances(memory, tolerance, tolerance * scale) ||
-             CVodeSetLinearSolver(memory, solver, matrix) || CVodeSetMaxNumSteps(memory, 100000000) ||
-             CVodeSetStopTime(memory, to);
+             CVodeSetMaxNumSteps(memory, most_steps) || CVodeSetStopTime(memory, to);
+  if (kind == CV_BDF) {
+    matrix = SUNDenseMatrix(n, n, context);
+    linear = SUNLinSol_Dense(x, matrix, context);
+    flag = flag || CVodeSetLinearSolver(memory, linear, matrix);
+  } else {
+    nonlinear = SUNNonlinSol_FixedPoint(x, 0, context);
+    flag = flag || CVodeSetNonlinearSolver(memory, nonlinear);
+  }
   if (flag) stop("CVODE");
   flag = CVode(memory, to, x, &t, CV_NORMAL);
   CVodeFree(&memory);
-  SUNLinSolFree(solver);
-  SUNMatDestroy(matrix);
+  if (linear) SUNLinSolFree(linear);
+  if (matrix) SUNMatDestroy(matrix);
+  if (nonlinear) SUNNonlinSolFree(nonlinear);
   return flag < 0 || t != to;
 }
 
-static int with_arkode(SUNContext context, double from, double to, N_Vector x, double tolerance, double scale) {
+static int with_arkode(double from, double to, N_Vector x, double tolerance, double scale) {
   double t = from;
   void *memory = ERKStepCreate(rates_of, from, x, context);
   int flag = ERKStepSStolerances(memory, tolerance, tolerance * scale) || ERKStepSetOrder(memory, 8) ||
-             ERKStepSetMaxNumSteps(memory, 100000000) || ERKStepSetStopTime(memory, to);
+             ERKStepSetMaxNumSteps(memory, most_steps) || ERKStepSetStopTime(memory, to);
   if (flag) stop("ARKODE");
   flag = ERKStepEvolve(memory, to, x, &t, ARK_NORMAL);
   ERKStepFree(&memory);
   return flag < 0 || t != to;
 }
 
-static double own_seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return now.tv_sec + 1e-9 * now.tv_nsec;
+static int integrate(const char *method, double from, double to, double *state, double tolerance, double scale) {
+  N_Vector x = N_VMake_Serial(n, state, context);
+  int failed = !strcmp(method, "arkode") ? with_arkode(from, to, x, tolerance, scale)
+                                         : with_cvode(strcmp(method, "adams") ? CV_BDF : CV_ADAMS, from, to, x,
+                                                      tolerance, scale);
+  N_VDestroy(x);
+  return failed;
 }
 
 int main(int count, char **words) {
-  SUNContext context;
-  char line[200], method[50];
-  double tolerance, scale, *state;
-  int repeats, failed;
-  if (count < 4 || count != 4 + (n = atoi(words[1]))) stop("usage");
+  read_size(count, words);
   if (SUNContext_Create(0, &context)) stop("SUNContext_Create");
-  N_Vector x = N_VNew_Serial(n, context);
-  state = N_VGetArrayPointer(x);
-  point = malloc((n + 1) * sizeof(double));
-  while (fgets(line, sizeof line, stdin)) {
-    if (sscanf(line, "%*s %49s %lf %lf %d", method, &tolerance, &scale, &repeats) != 4) stop("a line");
-    double begin = own_seconds();
-    for (int k = failed = 0; k < repeats; k++) {
-      evaluations = 0;
-      for (int i = 0; i < n; i++) state[i] = strtod(words[4 + i], NULL);
-      failed |= (strcmp(method, "cvode") ? with_arkode : with_cvode)(context, atof(words[2]), atof(words[3]), x,
-                                                                     tolerance, scale);
-    }
-    printf("bench %.9g %ld", failed ? -1. : (own_seconds() - begin) / repeats, evaluations);
-    for (int i = 0; i < n; i++) printf(" %.17g", state[i]);
-    putchar('\n');
-    fflush(stdout);
-  }
+  serve(words);
   return 0;
 }

@@ -135,8 +135,8 @@ of numbers, whole powers, roots of their own; the rest under one root, and that 
   (algebra-written-root (power radicand (list '(rat simp) 1 degree)) radicand degree scan))
 
 (defun algebra-written-root (root radicand degree scan)
-  "The kernel of ROOT of RADICAND, or the skeleton of a root that Maxima takes apart, sqrt(x*y) where
-x is positive: it must not stand beside sqrt(x) as something of its own."
+  "The kernel of ROOT of RADICAND, or the skeleton of a root that Maxima takes apart, sqrt(x*y)
+where x is positive: it must not stand beside sqrt(x) as something of its own."
   (if (mtimesp root)
       (funcall scan root)
       (algebra-find-or-make-root root degree (lambda () (funcall scan radicand)))))

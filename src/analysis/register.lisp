@@ -69,6 +69,9 @@
 (core-public "Equilibria"
   :forms '(("equations" "equations" "variables")) :options '("unknowns" "where")
   :kinds *analysis-kinds*)
+(core-rule "Equilibria" '("equations") "analysis/jumps" "analysis_smooth_equilibria"
+  "equations" *analysis-variables* *analysis-unknowns* *analysis-where*
+  *analysis-laws* *analysis-functions*)
 (core-rule "Equilibria" *analysis-states* "analysis/jumps" "analysis_smooth_equilibria"
   "state_equations" *analysis-variables* *analysis-unknowns* *analysis-where*
   *analysis-laws* *analysis-functions*)
@@ -84,8 +87,8 @@
   *analysis-where* *analysis-laws* *analysis-unknowns*)
 (core-rule "undisturbed_motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
-(core-rule "undisturbed_motion" *analysis-motions* "analysis/given_solution" "analysis_lagrange_motion"
-  "LagrangeEquations" "coordinates" "solution" "special_cases")
+(core-rule "undisturbed_motion" *analysis-motions* "analysis/given_solution"
+  "analysis_lagrange_motion" "LagrangeEquations" "coordinates" "solution" "special_cases")
 (core-rule "undisturbed_routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
   "special_cases")
@@ -216,7 +219,7 @@
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
                                ("Signature" "analysis_signature")
-                               ("Definite" "analysis_definite"))
+                               ("Definite" "analysis_definite_or_undecided"))
       do (core-public name :forms '(("matrices" "A")))
          (core-rule name :any "analysis/definite" function "A"))
 

@@ -57,9 +57,10 @@ strings do not part fields."
 (defun archive-field-value (reader field &key relations)
   "The value of FIELD, a range of characters."
   (multiple-value-bind (line column) (archive-reader-place reader (car field))
-    (let ((part (archive-open-text (reader-text reader) :file (reader-file reader) :line line
-                                   :column column
-                                   :start (car field) :end (cdr field))))
+    (let ((part (archive-open-text
+                 (make-archive-stretch :text (reader-text reader) :file (reader-file reader)
+                                       :start (car field) :end (cdr field)
+                                       :line line :column column))))
       (let ((value (archive-parse-reader! part :relations relations)))
         (unless (and relations (eq (archive-form-kind value) :relation))
           (archive-expect-scalar part (car field) value))

@@ -109,9 +109,10 @@ none."
      (core-watched nil (lambda () (core-clean-call #'archive-called (cons name arguments)))))))
 
 (defun archive-called (name &rest arguments)
-  (multiple-value-bind (positional options)
-      (archive-split-arguments (archive-exact-decimals (archive-sums-written-out arguments)))
-    (let ((public (gethash name *core-publics*)))
+  (let ((public (gethash name *core-publics*)))
+    (multiple-value-bind (positional options)
+        (archive-split-arguments (archive-exact-decimals (archive-sums-written-out arguments)
+                                                         (core-public-numerical public)))
       (cond ((and (null positional) (core-public-kinds public))
              (archive-ask public options))
             ((archive-system-p (car positional) public)
@@ -131,8 +132,8 @@ none."
    (lambda ()
      (let ((archive (archive-of-text "the description" text)))
        (setf (archive-path archive) nil)
-       (archive-watched options
-                        (lambda () (archive-run (archive-call-on public archive '() options) t)))))))
+       (archive-watched
+        options (lambda () (archive-run (archive-call-on public archive '() options) t)))))))
 
 (defun archive-call-system (public positional options)
   (archive-run (archive-call-on public (archive-open-system (car positional)) (cdr positional)
@@ -145,6 +146,7 @@ none."
     (archive-give-options call options)
     (archive-check-arguments (archive-call-given call) (archive-call-kind call)
                              (mapcar #'car (archive-moving-names (archive-description archive))))
+    (archive-warn-of-strange-numbers call options)
     (setq *core-place* (lambda (section key) (archive-place archive section key)))
     call))
 
@@ -154,20 +156,43 @@ none."
     (archive-give-positional call (cdr form) positional)
     (archive-give-options call options)
     (archive-check-arguments (archive-call-given call) (car form))
+    (archive-warn-of-strange-numbers call options)
     (archive-run call)))
 
-(defun archive-call-names (call)
-  "All names in what CALL was given and in its description, heads of functions too."
+(defun archive-warn-of-strange-numbers (call options)
+  "A line where OPTIONS of a run give a number to a name that stands nowhere else; momenta may."
+  (when (and (core-public-numerical (archive-call-public call))
+             (not (gethash "function" (archive-call-given call))))
+    (let ((names (archive-call-names call '("values"))))
+      (dolist (equation options)
+        (when (and (member (archive-option-name equation) '("parameters" "values") :test #'string=)
+                   (archive-list-p (caddr equation)))
+          (dolist (name (archive-lefts (caddr equation)))
+            (unless (member name names)
+              (archive-warn-of-strange-number name names))))))))
+
+(defun archive-warn-of-strange-number (name names)
+  (let ((words (core-words (list name))))
+    (core-warn "~a, which has a number, stands nowhere in the system~@[; did you mean ~a?~]" words
+               (and (> (length words) 1)
+                    (core-nearest words (mapcar (lambda (other) (core-words (list other)))
+                                                names))))))
+
+(defun archive-call-names (call &optional without)
+  "All names in what CALL was given, WITHOUT some of its options, and in its description; heads of
+functions too."
   (let ((names '()))
     (flet ((note (part)
              (cond ((archive-symbol-p part) (pushnew part names))
                    ((and (consp part) (consp (car part)) (archive-symbol-p (caar part)))
                     (pushnew (caar part) names)))))
       (loop for name being the hash-keys of (archive-call-given call) using (hash-value value)
-            do (unless (archive-word-key-p name) (archive-map-parts #'note value)))
+            do (unless (or (archive-word-key-p name) (member name without :test #'string=))
+                 (archive-map-parts #'note value)))
       (when (archive-call-archive call)
         (dolist (entry (cdr (archive-description (archive-call-archive call))))
-          (unless (archive-word-key-p (archive-key-text (second entry)))
+          (unless (let ((key (archive-key-text (second entry))))
+                    (or (archive-word-key-p key) (member key without :test #'equal)))
             (archive-map-parts #'note entry)))))
     names))
 
@@ -200,8 +225,8 @@ none."
   (member name '("kind" "field" "sign" "algebra") :test #'equal))
 
 (defun archive-run (call &optional trial)
-  "The value of the call's target, computed in the guard; new steps are saved, and what the call does
-is done. A TRIAL does not."
+  "The value of the call's target, computed in the guard; new steps are saved, and what the call
+does is done. A TRIAL does not."
   (setq *core-names* (archive-call-names call)
         *core-has-parameters* (lambda () (archive-has-parameters-p call))
         *core-unsaved* (not (archive-saves-p call)))

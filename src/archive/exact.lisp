@@ -2,8 +2,9 @@
 ;;; What is typed in a call made exact. A decimal of at most 15 digits is the fraction that was
 ;;; typed, 0.3 is 3/10, which is said once, and so is 1/0.3, which Maxima divides. A number that
 ;;; needs more digits comes from a rounding before the call, as 0.1+0.2-0.3 does, and is refused.
-;;; Start values, spans of time and the like may be any numbers. Sums and products over whole
-;;; numbers are written out. Look first at archive-exact-decimals and archive-sums-written-out.
+;;; Start values, spans of time and all that a run takes may be any numbers: its rows are such
+;;; numbers themselves. Sums and products over whole numbers are written out. Look first at
+;;; archive-exact-decimals and archive-sums-written-out.
 
 (in-package :maxima)
 
@@ -56,20 +57,33 @@
         ((minusp e) (concatenate 'string "-" (archive-spell-double (- e))))
         (t (archive-spell-double e))))
 
+(defvar *archive-takes-long-decimals* nil "Whether numbers are wanted of what is typed.")
+
 (defun archive-exact-decimal (e)
-  (or (and (archive-finite-p e)
-           (or (archive-fraction-of-decimal e *archive-exact-digits*)
-               (archive-fraction-of-inverse e)))
+  "Two values: the rational number that E was, and whether that is a guess worth telling."
+  (let ((fraction (and (archive-finite-p e)
+                       (or (archive-fraction-of-decimal e *archive-exact-digits*)
+                           (archive-fraction-of-inverse e)))))
+    (cond (fraction (values fraction t))
+          ((and *archive-takes-long-decimals* (archive-finite-p e)) (archive-long-decimal e))
+          (t (archive-refuse-decimal e)))))
+
+(defun archive-long-decimal (e)
+  (or (archive-fraction-of-decimal e 17) (values (archive-binary-number e))))
+
+(defun archive-refuse-decimal (e)
+  (if (archive-finite-p e)
       (core-error "~a arrived, a decimal of more than ~a digits: it was rounded before the call, ~
                    as 0.1+0.2-0.3 is; type fractions"
-                  (archive-decimal-text e) *archive-exact-digits*)))
+                  (archive-decimal-text e) *archive-exact-digits*)
+      (core-error "~a arrived, which is no number" (archive-decimal-text e))))
 
 ;;; Where they stand
 
 (defvar *archive-decimals* '() "Decimals found in a call, with their fractions, newest first.")
 
 (defun archive-floating-key-p (key)
-  (or (eq key $values) (member key '($start $time $limit $tolerance))))
+  (or (eq key $values) (member key '($start $time $limit $tolerance $tolerances $cell))))
 
 (defun archive-with-parts (e parts)
   "E with other PARTS, simplified where these are numbers, sums, products, powers or functions."
@@ -92,9 +106,10 @@
 (defun archive-without-decimals (e)
   "E with fractions for its decimals."
   (cond ((archive-decimal-p e)
-         (let ((fraction (archive-maxima-number (archive-exact-decimal e))))
-           (pushnew (cons e fraction) *archive-decimals* :test #'equal)
-           fraction))
+         (multiple-value-bind (number guessed) (archive-exact-decimal e)
+           (let ((fraction (archive-maxima-number number)))
+             (when guessed (pushnew (cons e fraction) *archive-decimals* :test #'equal))
+             fraction)))
         ((archive-plain-part-p e) e)
         ((and (mequalp e) (archive-floating-key-p (cadr e)))
          (list (car e) (cadr e) (archive-with-any-decimals (caddr e))))
@@ -104,7 +119,7 @@
 (defun archive-with-any-decimals (e)
   "E with fractions for its decimals, however many digits these have."
   (cond ((and (archive-decimal-p e) (archive-finite-p e))
-         (archive-maxima-number (or (archive-fraction-of-decimal e 17) (archive-binary-number e))))
+         (archive-maxima-number (archive-long-decimal e)))
         ((archive-plain-part-p e) e)
         (t (archive-with-parts e (mapcar #'archive-with-any-decimals (cdr e))))))
 
@@ -113,15 +128,16 @@
                       (loop for (decimal . fraction) in decimals
                             repeat 3
                             collect (archive-decimal-text decimal)
-                            collect (core-words (list fraction)))
+                            collect (core-cut (core-words (list fraction))))
                       (nthcdr 3 decimals))))
     (unless (member text *core-warnings* :test #'string=)
       (push text *core-warnings*)
       (core-note "~a" text))))
 
-(defun archive-exact-decimals (arguments)
-  "ARGUMENTS of a call, options included, with fractions for decimals."
+(defun archive-exact-decimals (arguments &optional numerical)
+  "ARGUMENTS of a call, options included, with fractions for decimals; NUMERICAL: of a run."
   (let* ((*archive-decimals* '())
+         (*archive-takes-long-decimals* numerical)
          (exact (archive-with-plain-simplifier (mapcar #'archive-without-decimals arguments))))
     (when *archive-decimals* (archive-say-decimals (reverse *archive-decimals*)))
     exact))

@@ -91,15 +91,23 @@
             (loop for (nil name value) in (cdr description)
                   when (stringp name) append (section (archive-section-word name) (cdr value))))))
 
+(defun archive-declared-and-used (kind description)
+  "Two values: the names that DESCRIPTION declares, and those that it uses."
+  (multiple-value-bind (branch-declares branch-uses) (archive-branch-names description)
+    (values (append '($t) branch-declares (archive-momentum-names description)
+                    (archive-rotor-angles description)
+                    (archive-map-keys #'archive-declared-by kind description))
+            (append branch-uses (archive-map-keys #'archive-used-by kind description)))))
+
+(defun archive-known-names (kind description)
+  "The names that stand in DESCRIPTION."
+  (multiple-value-call #'append (archive-declared-and-used kind description)))
+
 (defun archive-free-symbols (kind description)
   "The names that DESCRIPTION uses and does not declare, sorted."
-  (multiple-value-bind (branch-declares branch-uses) (archive-branch-names description)
-    (let ((declared (append '($t) branch-declares (archive-momentum-names description)
-                            (archive-rotor-angles description)
-                            (archive-map-keys #'archive-declared-by kind description)))
-          (used (append branch-uses (archive-map-keys #'archive-used-by kind description))))
-      (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared)))
-            #'string<))))
+  (multiple-value-bind (declared used) (archive-declared-and-used kind description)
+    (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared)))
+          #'string<)))
 
 (defun archive-warn-free-symbols (kind description)
   (let ((free (archive-free-symbols kind description)))
@@ -154,16 +162,23 @@ open."
   (mapcar #'second (archive-lefts value)))
 
 (defun archive-check-equations (description)
-  (let ((variables (cdr ($core_get description '$variables)))
-        (rated (archive-derivative-names ($core_get description '$equations))))
+  "A variable without a rate belongs to an equation 0 = g."
+  (let* ((variables (cdr ($core_get description '$variables)))
+         (equations (cdr ($core_get description '$equations)))
+         (rated (archive-derivative-names
+                 (archive-list (remove 0 equations :key #'second)))))
     (flet ((fault (names text)
              (when names
                (core-fault "system" '$equations text
                            (mapcar #'core-spelling names)))))
       (fault (remove-if (lambda (x) (member x variables)) rated)
              "there are equations for ~{~a~^, ~}, not among the variables; add them there")
-      (fault (remove-if (lambda (x) (member x rated)) variables)
-             "there are no equations for ~{~a~^, ~}; a parameter is no variable"))))
+      (when (= (length rated) (length equations))
+        (fault (remove-if (lambda (x) (member x rated)) variables)
+               "there are no equations for ~{~a~^, ~}; a parameter is no variable"))
+      (unless (= (length equations) (length variables))
+        (core-fault "system" '$equations "there are ~d equations for ~d variables"
+                    (length equations) (length variables))))))
 
 (defun archive-check-coordinates (description)
   "A coordinate that occurs nowhere in what the equations are made of has the equation 0 = 0."

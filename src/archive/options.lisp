@@ -40,9 +40,9 @@
 (defun archive-check-option (option value)
   (let ((type (gethash option *core-options*)))
     (unless (or (null type) (archive-option-fits type value))
-      (core-error "the option ~a is ~a, found ~a~@[; did you mean ~a?~]" option
+      (core-error "the option ~a is ~a, found ~:[~a~;\"~a\"~]~@[; did you mean ~a?~]" option
                   (if (consp type) (core-choice type) (cdr (assoc type *archive-option-phrases*)))
-                  (core-words (list value))
+                  (stringp value) (core-words (list value))
                   (and (consp type) (core-nearest (core-words (list value)) type))))))
 
 (defun archive-check-program-form (call)
@@ -184,9 +184,16 @@ neglected in a field."
     (archive-give-all call (archive-numbers-over-values
                             call (loop for equation in options
                                        for name in names
-                                       collect (cons name (caddr equation)))))
+                                       collect (cons name (archive-option-value
+                                                           name (caddr equation))))))
     (archive-check-effects call names))
   (when (eq (gethash "progress" (archive-call-given call) t) nil) (setq *core-progress* nil)))
+
+(defun archive-option-value (name value)
+  "VALUE of the option NAME; a span of time may begin with the name of time, as among arguments."
+  (if (and (string= name "time") (archive-list-p value) (eq (second value) '$t))
+      (archive-list (cddr value))
+      value))
 
 (defun archive-check-effects (call names)
   "An error for the first of the options NAMES that nothing in this call asks for."
@@ -228,6 +235,10 @@ to the rule only."
 (defun archive-numbers-over-values (call pairs)
   "PAIRS where numbers given to parameters of a run stand in `values', over those of the archive."
   (let ((numbers (find-if #'archive-numbers-p pairs)))
+    (when (core-public-numerical (archive-call-public call))
+      (archive-check-numbered-names
+       call (append (cdr numbers) (cdr (assoc "values" pairs :test #'string=)))
+       (archive-names-beside-numbers call pairs)))
     (if (and numbers (core-public-numerical (archive-call-public call)))
         (let* ((values (or (cdr (assoc "values" pairs :test #'string=))
                            (archive-key-value call "values")))
@@ -238,6 +249,42 @@ to the rule only."
                  (remove-if (lambda (pair) (or (eq pair numbers) (string= (car pair) "values")))
                             pairs)))
         pairs)))
+
+;;; A number for a name that nothing contains would change nothing: it is a misprint
+
+(defun archive-names-beside-numbers (call pairs)
+  "The names that CALL contains, PAIRS being its options; left sides of `values' that are given in
+it aside."
+  (let ((archive (archive-call-archive call)))
+    (append
+     (loop for value being the hash-values of (archive-call-given call)
+           append (archive-names-in value))
+     (loop for (name . value) in pairs
+           unless (member name '("values" "parameters") :test #'string=)
+             append (archive-names-in value))
+     (archive-momentum-names (archive-list (list (archive-equation
+                                                  '$coordinates
+                                                  (gethash "coordinates" (archive-call-given call)
+                                                           '((mlist)))))))
+     (and archive (archive-known-names (archive-call-kind call) (archive-description archive))))))
+
+(defun archive-check-numbered-names (call equations known)
+  "An error for an equation name = number among EQUATIONS whose name is not KNOWN in CALL."
+  (dolist (name (mapcar #'second (remove-if-not #'archive-equation-p equations)))
+    (unless (or (member name known) (not (archive-symbol-p name)))
+      (let* ((word (core-spelling name))
+             (words (mapcar #'core-spelling (archive-parameters call known)))
+             (near (if (= (length word) 1)
+                       (find word words :test #'string-equal)
+                       (core-nearest word words))))
+        (core-error "~a is given a number and does not occur in this system~@[; did you mean ~a?~]"
+                    word near)))))
+
+(defun archive-parameters (call known)
+  "Those of the names KNOWN that may have a number."
+  (let ((archive (archive-call-archive call)))
+    (set-difference known (and archive (mapcar #'car (archive-moving-names
+                                                      (archive-description archive)))))))
 
 ;;; Keys that are overruled
 

@@ -363,12 +363,11 @@ condition."
                                :truth-value))
         value))))
 
-(defun archive-parse-value (text &key file (line 1) (column 1) (start 0) end doubles relations)
-  "Two values: the Maxima expression that TEXT from START to END spells, and the functions called
-in it that Maxima does not have, as a list of (name line column), each once. DOUBLES: decimals are
-doubles. RELATIONS: the value may be an equation."
-  (let* ((reader (archive-open-text text :file file :line line :column column :start start :end end
-                                    :doubles doubles))
+(defun archive-parse-value (text &key doubles relations)
+  "Two values: the Maxima expression that TEXT spells, a string or an archive-stretch of one, and
+the functions called in it that Maxima does not have, as a list of (name line column), each once.
+DOUBLES: decimals are doubles. RELATIONS: the value may be an equation."
+  (let* ((reader (archive-open-text text :doubles doubles))
          (value (archive-parse-reader! reader :relations relations)))
     (values value (archive-reader-calls reader))))
 

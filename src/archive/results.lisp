@@ -125,6 +125,29 @@ can read them."
         line
         (format nil (format nil "~~a~~{~~a~~^,~~%~~~d@t~~}~~a" (+ indent 1)) open items close))))
 
+(defun archive-filled-lines (open items close indent)
+  "The same for a row of numbers and words: as many on a line as fit."
+  (with-output-to-string (out)
+    (write-string open out)
+    (loop with column = (+ indent (length open))
+          for (item . more) on items
+          for text = (concatenate 'string item (if more "," close))
+          for first = t then nil
+          do (cond (first)
+                   ((< (+ column 1 (length text)) *archive-result-width*)
+                    (write-char #\Space out)
+                    (incf column))
+                   (t (format out "~%~v@t" (1+ indent))
+                      (setq column (1+ indent))))
+             (write-string text out)
+             (incf column (length text)))))
+
+(defun archive-row-p (value items)
+  "Whether VALUE, whose parts are ITEMS as text, is a row of a table: it begins with a number or a
+word, and nothing in it is named, or longer than a line."
+  (and (atom (cadr value)) (notany #'archive-equation-p (cdr value))
+       (notany (lambda (item) (find #\Newline item)) items)))
+
 (defun archive-break-p (text position)
   "Whether a line may end before POSITION of TEXT: before a sign between two terms."
   (let ((before (char text (1- position))))
@@ -159,10 +182,11 @@ it is."
   "VALUE as text that begins in column INDENT and reads back; with DOUBLES its decimals are
 doubles."
   (if (and (archive-list-p value) (cdr value))
-      (archive-wrapped "["
-                       (mapcar (lambda (item) (archive-value-text item (1+ indent) doubles))
-                               (cdr value))
-                       "]" indent)
+      (let ((items (mapcar (lambda (item) (archive-value-text item (1+ indent) doubles))
+                           (cdr value))))
+        (if (and doubles (archive-row-p value items))
+            (archive-filled-lines "[" items "]" indent)
+            (archive-wrapped "[" items "]" indent)))
       (archive-folded (archive-settled-text value :doubles doubles) indent)))
 
 (defun archive-part (key value doubles)

@@ -233,9 +233,10 @@ with the newest first; COUNTS are their numbers, (sections . entries)."
 (defun archive-parse-row (entry parse)
   "The row ENTRY as a Maxima list, or label = list; PARSE takes a reader on its first token."
   (let* ((sheet (entry-sheet entry))
-         (reader (archive-open-text (sheet-text sheet) :file (sheet-file sheet)
-                                    :line (entry-line entry)
-                                    :start (entry-start entry) :end (entry-end entry))))
+         (reader (archive-open-text
+                  (make-archive-stretch :text (sheet-text sheet) :file (sheet-file sheet)
+                                        :start (entry-start entry) :end (entry-end entry)
+                                        :line (entry-line entry)))))
     (archive-set-entry-value entry (list (funcall parse reader) (archive-reader-calls reader)))))
 
 (defun archive-entry-parsed (entry &key doubles relations)
@@ -245,12 +246,15 @@ with the newest first; COUNTS are their numbers, (sections . entries)."
      entry
      (multiple-value-list
       (or (archive-digest-value entry)
-          (archive-parse-value (sheet-text (entry-sheet entry)) :file
-                               (sheet-file (entry-sheet entry))
-                               :start (entry-from entry) :end (entry-to entry)
-                               :line (entry-value-line entry) :column (entry-value-column entry)
+          (archive-parse-value (archive-value-stretch entry)
                                :doubles doubles :relations relations)))))
   (entry-value entry))
+
+(defun archive-value-stretch (entry)
+  (let ((sheet (entry-sheet entry)))
+    (make-archive-stretch :text (sheet-text sheet) :file (sheet-file sheet)
+                          :start (entry-from entry) :end (entry-to entry)
+                          :line (entry-value-line entry) :column (entry-value-column entry))))
 
 (defun archive-set-entry-value (entry values)
   (setf (entry-value entry) (first values)

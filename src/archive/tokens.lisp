@@ -18,6 +18,11 @@
 (defvar *archive-digits* 10000 "The most digits that a number may have.")
 (defvar *archive-decimal-exponent* 308 "The largest size of a decimal exponent.")
 
+(defstruct (archive-stretch (:conc-name stretch-))
+  "What is read of a text: from START to END (nil: the whole rest); its first character stands in
+FILE (nil: it was typed) at LINE and COLUMN."
+  (text "") (start 0) (end nil) (file nil) (line 1) (column 1))
+
 (defstruct (archive-reader (:conc-name reader-))
   "A text from START to END whose first character stands in FILE at LINE and COLUMN, and the
 token that the reader stands on."
@@ -31,12 +36,17 @@ token that the reader stands on."
   #+sbcl (coerce text '(simple-array character (*)))
   #-sbcl (coerce text 'simple-string))
 
-(defun archive-open-text (text &key file (line 1) (column 1) (start 0) end doubles)
-  "A reader that stands on the first token of TEXT."
-  (let ((reader (make-archive-reader :text (archive-simple-text text) :position start :start start
-                                     :from start :to start
-                                     :end (or end (length text)) :file file :line line
-                                     :column column :doubles doubles)))
+(defun archive-open-text (text &key doubles)
+  "A reader that stands on the first token of TEXT, a string or an archive-stretch of one."
+  (let* ((stretch (if (stringp text) (make-archive-stretch :text text) text))
+         (whole (stretch-text stretch))
+         (start (stretch-start stretch))
+         (reader (make-archive-reader
+                  :text (archive-simple-text whole)
+                  :position start :start start :from start :to start
+                  :end (or (stretch-end stretch) (length whole))
+                  :file (stretch-file stretch) :line (stretch-line stretch)
+                  :column (stretch-column stretch) :doubles doubles)))
     (archive-next-token! reader)
     reader))
 

@@ -18,8 +18,8 @@
     $file_search_tests $file_search_usage $maxima_userdir $maxima_tempdir $maxima_objdir
     $features $% $%% $_ $__ $infolists $prompt $linel $stdin $stdout $transcript $debugmode
     $showtime $lasttime $plot_options $gnuplot_command $gnuplot_view_args $gnuplot_term
-    $gnuplot_out_file $wxplot_size $wxplot_usesvg $random $version $build_info $ttyoff $gensumnum $testsuite_files
-    $share_testsuite_files $factor_max_degree_print_warning)
+    $gnuplot_out_file $wxplot_size $wxplot_usesvg $random $version $build_info $ttyoff $gensumnum
+    $testsuite_files $share_testsuite_files $factor_max_degree_print_warning)
   "Variables that are not options of a computation, or whose change must last.")
 
 (defparameter *core-lisp-options*

@@ -9,8 +9,9 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_exchange"
                 "algebra/program_from_expressions" "algebra/program_nodes" "forms/actions"
-                "forms/dynamics" "forms/equations_as_program" "forms/judge" "forms/momenta" "forms/momenta_judge" "forms/program_judge"
-                "forms/rates" "forms/rates_of_momenta" "forms/rates_of_motion"))
+                "forms/dynamics" "forms/equations_as_program" "forms/judge" "forms/momenta"
+                "forms/momenta_judge" "forms/program_judge" "forms/rates"
+                "forms/rates_of_momenta" "forms/rates_of_motion"))
 
 (core-record forms-wanted-form
   "FORM is lagrange, routh or hamilton; NAMES of the momenta of all coordinates, which must not

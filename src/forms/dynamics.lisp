@@ -57,6 +57,20 @@
 
 (defun forms-diagonal (rows) (loop for row in rows for k from 0 collect (nth k row)))
 
+(defun forms-dynamics-pivots (dynamics)
+  "The guards of the mass matrix, and of that of the multipliers, lambda1, .."
+  (append (funcall (forms-dynamics-guards dynamics)) (forms-multiplier-guards dynamics)))
+
+(defun forms-multiplier-guards (dynamics)
+  (let* ((bonds (forms-dynamics-bonds dynamics))
+         (rows (forms-bond-matrix (mapcar (forms-dynamics-solve dynamics)
+                                          (mapcar #'forms-bond-row bonds))
+                                  bonds)))
+    (forms-pivot-guards (loop for k from 1 to (length bonds)
+                              collect (core-symbol (format nil "lambda~d" k)))
+                        (forms-program-factors rows *forms-dependent-constraints*)
+                        (forms-diagonal rows))))
+
 ;;; With constraints.
 
 (defun forms-dynamics-outputs (dynamics)

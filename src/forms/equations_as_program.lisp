@@ -158,11 +158,15 @@
 (defparameter *forms-dependent-constraints*
   "the constraints depend on each other: their multipliers do not follow from the equations")
 
+(defun forms-bond-matrix (columns bonds)
+  "A Y, by rows."
+  (loop for bond in bonds
+        collect (loop for column in columns
+                      collect (forms-program-product (forms-bond-row bond) column))))
+
 (defun forms-program-multipliers (free columns bonds)
   (forms-program-solution
-   (loop for bond in bonds
-         collect (loop for column in columns
-                       collect (forms-program-product (forms-bond-row bond) column)))
+   (forms-bond-matrix columns bonds)
    (loop for bond in bonds
          collect (algebra-program-subtract
                   (forms-bond-right bond) (forms-program-product (forms-bond-row bond) free)))

@@ -5,8 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/agreement" "forms/fixed"
-                "forms/program_judge" "forms/rates" "forms/value"))
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/agreement"
+                "forms/fixed" "forms/program_judge" "forms/rates" "forms/value"))
 
 (defun forms-check-elements (elements expressions)
   "The values of ELEMENTS against those of the EXPRESSIONS that they were made from."

@@ -98,9 +98,10 @@
                         (forms-momentum-bonds dynamics (forms-canonical-motion-bonds motion)
                                               (forms-canonical-motion-multipliers motion)
                                               constant))
-         :guards (funcall (forms-dynamics-guards dynamics))
+         :guards (forms-dynamics-pivots dynamics)
          :inertia (forms-dynamics-inertia dynamics)
-         :integrals (remove-if (lambda (name) (rassoc name constant)) integrals :key #'first)
+         :integrals (remove-if (lambda (name) (rassoc name constant)) integrals
+                              :key #'forms-first-integral-name)
          :angles (forms-angles (kept (forms-task-q task)) elements))))))
 
 (defun forms-velocities-of-momenta (dynamics names)
@@ -204,7 +205,7 @@ FORCES alone."
                            (cons '$quadratures (cons :list velocities))
                            (forms-momentum-bonds dynamics bonds multipliers constant))
            :cyclic (mapcar #'car constant)
-           :guards (forms-put-in-guards (funcall (forms-dynamics-guards dynamics)) pairs)
+           :guards (forms-put-in-guards (forms-dynamics-pivots dynamics) pairs)
            :split (length (kept (forms-task-q task)))
            :inertia (forms-dynamics-inertia dynamics)
            :integrals (forms-routh-integrals dynamics names constant pairs elements

@@ -40,7 +40,7 @@
   (let* ((outputs (forms-checked-outputs dynamics))
          (accelerations (forms-output-list '$accelerations outputs))
          (rates (forms-motion-rates dynamics accelerations (forms-bond-outputs dynamics outputs))))
-    (setf (forms-rates-guards rates) (funcall (forms-dynamics-guards dynamics))
+    (setf (forms-rates-guards rates) (forms-dynamics-pivots dynamics)
           (forms-rates-integrals rates)
           (forms-integrals-of-solved-motion dynamics names accelerations
                                             (forms-output-list '$multipliers outputs)))

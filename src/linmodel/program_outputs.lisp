@@ -9,11 +9,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "linmodel/articulated_bodies" "linmodel/kinetic" "linmodel/energy_value"
-                "forms/dynamics" "forms/equations_as_program" "forms/program_judge" "algebra/program_nodes"
-                "linmodel/twists" "linmodel/arithmetic" "forms/value"
-                "linmodel/composite_bodies" "linmodel/motions"
-                "algebra/program_from_expressions" "algebra/program_derivative"
-                "linmodel/scene_records"))
+                "forms/dynamics" "forms/equations_as_program" "forms/program_judge"
+                "algebra/program_nodes" "linmodel/twists" "linmodel/arithmetic" "forms/value"
+                "linmodel/composite_bodies" "linmodel/motions" "algebra/program_from_expressions"
+                "algebra/program_derivative" "linmodel/scene_records"))
 
 ;;; What the recursion runs on: an arithmetic, the joints, the state of motion, gravity as an
 ;;; acceleration, and the forces that the field does not give.

@@ -3,8 +3,8 @@
 ;;; matrix M, constraints Phi(t, q) = 0 and G v + b(t, q) = 0 (the rates of Phi, then those that are
 ;;; linear in the velocities alone), the least change of q and then of v, measured by M, is
 ;;;     change = D f,   G D f = -residual,   D = M^-1 G^T,
-;;; made twice, as Newton's method does (E. Hairer, G. Wanner, Solving Ordinary Differential Equations
-;;; II, section VII.2). A constraint that follows from others is left out and named.
+;;; made twice, as Newton's method does (E. Hairer, G. Wanner, Solving Ordinary Differential
+;;; Equations II, section VII.2). A constraint that follows from others is left out and named.
 
 (in-package :maxima)
 
@@ -68,8 +68,8 @@ MATRIX gives G by rows, those of Phi first; DIRECTIONS, nil where they are these
              (numerics-constraints-kept constraints)))
 
 (defun numerics-change-states (constraints moment x kept start)
-  "Changes the states from the place START on so that the residuals KEPT vanish; nil where the system
-is singular."
+  "Changes the states from the place START on so that the residuals KEPT vanish; nil where the
+system is singular."
   (let* ((system (numerics-constraints-system constraints))
          (size (numerics-constraints-size constraints))
          (rows (numerics-constraints-rows constraints))

@@ -4,8 +4,8 @@
 ;;; time for one long function. A value that is used once stands where it is used, others are bound
 ;;; by `let'; the work vector w holds what another part needs, the arguments and values of
 ;;; elementary functions, and the time at 0. Rows of a product become code, too, where they are few:
-;;; long ones run faster as a product, and are made in no time. In long programs parts that are alike
-;;; share their code. See numerics-compiled first.
+;;; long ones run faster as a product, and are made in no time. In long programs parts that are
+;;; alike share their code. See numerics-compiled first.
 
 (in-package :maxima)
 

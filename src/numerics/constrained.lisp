@@ -1,14 +1,15 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The constraints of a run, from its program: their values and rates, the rows of their multipliers
-;;; and the directions in which a state is brought back. A start that is off a constraint is refused,
-;;; and so are constraints that follow from others there: their multipliers have no values.
+;;; The constraints of a run, from its program: their values and rates, the rows of their
+;;; multipliers and the directions in which a state is brought back. A start that is off a
+;;; constraint is refused, and so are constraints that follow from others there: their multipliers
+;;; have no values.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "forms/rates" "numerics/decimals" "numerics/native"
-                "numerics/problem" "numerics/program" "numerics/back_to_constraints" "numerics/routine"
-                "numerics/small_systems"))
+                "numerics/problem" "numerics/program" "numerics/back_to_constraints"
+                "numerics/routine" "numerics/small_systems"))
 
 (defparameter *numerics-largest-start-residual* 1d-6
   "Off a constraint by more than this a start is refused, by less it is brought back.")

@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Dead points of a mechanism: where gradients of its constraints depend on each other the motion
 ;;; may go on in several ways (a parallelogram may fold into an antiparallelogram), and a step goes
-;;; over such a place as over any other. So how far each gradient stands off the span of those before
-;;; it, over the greatest length that it had, is looked at after each step, and between its ends where
-;;; gradients turn much in it or that distance is small. What lies nearer to a dead
+;;; over such a place as over any other. So how far each gradient stands off the span of those
+;;; before it, over the greatest length that it had, is looked at after each step, and between its
+;;; ends where gradients turn much in it or that distance is small. What lies nearer to a dead
 ;;; point than a few tolerances is not told from it. See numerics-dead-share first.
 
 (in-package :maxima)
@@ -98,8 +98,8 @@
     (and (< (funcall depth share) 0) share)))
 
 (defun numerics-dead-point-part (dead found)
-  "A part of an observer that calls FOUND with the time and ends the run before a step to a dead point
-or over one."
+  "A part of an observer that calls FOUND with the time and ends the run before a step to a dead
+point or over one."
   (lambda (step)
     (let ((share (numerics-dead-share dead step)) (moment (numerics-dead-points-moment dead)))
       (when share

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Drifts along a run of what should not change: first integrals, and balances, values to which the
-;;; integral of a power over the time is added. It is taken along each step, at the nodes of a method
-;;; by collocation, else at those of Gauss' formula of order 10 on the interpolated states. See
-;;; numerics-see-drifts first.
+;;; integral of a power over the time is added. It is taken along each step, at the nodes of a
+;;; method by collocation, else at those of Gauss' formula of order 10 on the interpolated states.
+;;; See numerics-see-drifts first.
 
 (in-package :maxima)
 

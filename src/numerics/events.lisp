@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Events: zeros of functions g(t, x) along a run, between its steps by dense output. Each step is
-;;; looked at in 17 places. Between two of them a change of sign is a crossing, found to the last
-;;; place of t; where |g| falls at one and rises at the other, g may touch 0 or cross it twice, and
-;;; its least value decides. A run that starts at a zero does not meet it there. Directions are
+;;; looked at in 17 places, and in parts where they do not show what is between them. Between two of
+;;; them a change of sign is a crossing, found to the last place of t; where |g| falls at one and rises
+;;; at the other, g may touch 0 or cross it twice, and its least value decides. A run that starts at a zero does not meet it there. Directions are
 ;;; those along the run. Look first at numerics-see-events.
 
 (in-package :maxima)
@@ -20,6 +20,8 @@
   stops                         ; list: whether the run ends there
   project                       ; nil, or (moment x): brings a state back to the constraints
   (found '())                   ; the last one first
+  (unseen 0 :type fixnum)       ; shortest parts of the last step in which zeros may be missed
+  (vague nil)                   ; whether these were many in some step
   (sides nil)                   ; vector: signs of g_1, .. before the step; nil before the run
   (samples (numerics-zeros 0) :type numerics-vector) ; of each, k/16 of the step
   (values (numerics-zeros 0) :type numerics-vector)
@@ -87,7 +89,11 @@
   (cond ((> x 0d0) 1) ((< x 0d0) -1) (t 0)))
 
 (defun numerics-largest-sample (events place)
-  (loop for k to 16 maximize (abs (numerics-sample events place k))))
+  (loop with largest = 0d0
+        for k to 16
+        for size = (abs (numerics-sample events place k))
+        do (when (and (numerics-finite-p size) (> size largest)) (setq largest size))
+        finally (return largest)))
 
 (defun numerics-quiet-p (events place side)
   "Whether all samples of the function PLACE are on its SIDE, and farther from 0 than they vary."
@@ -138,6 +144,18 @@ which it goes."
         (0 (sum 1d0 -8d0 0d0 8d0 -1d0))
         (1 (sum -1d0 6d0 -18d0 10d0 3d0))
         (t (sum 3d0 -16d0 36d0 -48d0 25d0))))))
+
+(defun numerics-may-turn-p (events place side k)
+  "Whether |g| falls before the sample K and rises after the next, both so fast that it may come to 0
+at a corner between them."
+  (flet ((rise (k) (* side (- (numerics-sample events place (1+ k)) (numerics-sample events place k)))))
+    (let* ((falls (if (> k 0) (- (rise (1- k))) (rise 1)))
+           (rises (if (< k 15) (rise (1+ k)) falls)))
+      (and (> falls 0) (> rises 0)
+           (> (* side (numerics-sample events place k))
+              (* *numerics-touch* (numerics-largest-sample events place)))
+           (<= (* side (numerics-sample events place k)) (* 2 (max falls rises)))
+           (<= (* side (numerics-sample events place (1+ k))) (* 2 (max falls rises)))))))
 
 (defun numerics-may-dip-p (events place side k)
   "Whether |g| falls at the sample K, rises at the next, and its tangents there meet below 0. (A
@@ -194,8 +212,8 @@ zero at the sample K itself was met before it.)"
       (list (list share place direction)))))
 
 (defun numerics-zeros-after (events step place k)
-  "Zeros of the function PLACE after the sample K up to the next; its new side is noted. Where it has
-no value there is no zero, and it begins anew after that."
+  "Zeros of the function PLACE after the sample K up to the next; its new side is noted. Where it
+has no value there is no zero, and it begins anew after that."
   (let* ((sides (numerics-events-sides events)) (side (svref sides place))
          (here (numerics-sample events place k)) (there (numerics-sample events place (1+ k)))
          (new (numerics-side there)))
@@ -204,7 +222,8 @@ no value there is no zero, and it begins anew after that."
            nil)
           ((zerop new) (numerics-zero-at events step place side (1+ k)))
           ((= new side)
-           (when (numerics-may-dip-p events place side k)
+           (when (or (numerics-may-dip-p events place side k)
+                     (numerics-may-turn-p events place side k))
              (numerics-dip events step place side k)))
           (t (setf (svref sides place) new)
              (unless (zerop side)
@@ -221,6 +240,69 @@ no value there is no zero, and it begins anew after that."
                                      (lambda (zero) (or (zerop wanted) (= wanted (third zero))))
                                      (numerics-zeros-after events step place k))))
         #'< :key #'first))
+
+;;; Parts of a step. Between samples the cubic through four of them is compared with g; where it is
+;;; far off, the halves of the step are sampled. What changes as much within a billionth of the step
+;;; is rounding, or a jump.
+
+(defparameter *numerics-most-halvings* 10)
+(defparameter *numerics-share-unseen* 0.02d0 "Of the range of the samples, that a cubic may be off.")
+
+(defun numerics-cubic-between (events place k)
+  "The cubic through the samples K - 1, .. K + 2 of the function PLACE, 0.41 of the way from K on."
+  (flet ((g (j) (numerics-sample events place (+ k j))))
+    (+ (* -0.0641035d0 (g -1)) (* 0.6613605d0 (g 0)) (* 0.4595895d0 (g 1)) (* -0.0568465d0 (g 2)))))
+
+(defun numerics-range-of-samples (events place)
+  (loop for k to 16
+        for value = (numerics-sample events place k)
+        minimize value into low
+        maximize value into high
+        finally (return (- high low))))
+
+(defun numerics-seen-p (events step)
+  "Whether the samples of all functions show what is between them."
+  (loop for k in '(1 4 8 11 14)
+        for share = (/ (+ k 0.41d0) 16)
+        for values = (copy-seq (numerics-events-at events step share))
+        for unseen = (loop for place below (numerics-events-count events)
+                           when (> (abs (- (aref values place)
+                                           (numerics-cubic-between events place k)))
+                                   (* *numerics-share-unseen*
+                                      (numerics-range-of-samples events place)))
+                             collect place)
+        never (and unseen
+                   (let ((near (numerics-events-at events step (+ share 1d-9))))
+                     (loop for place in unseen
+                             thereis (< (abs (- (aref near place) (aref values place)))
+                                        (* *numerics-share-unseen*
+                                           (numerics-range-of-samples events place))))))))
+
+(defun numerics-half-of-step (step from)
+  "The half of STEP that begins at the share FROM, as a step."
+  (let ((half (copy-numerics-step step)) (to (+ from 0.5d0)))
+    (setf (numerics-step-from half) (numerics-zeros 2)
+          (numerics-step-to half) (numerics-zeros 2)
+          (numerics-step-interpolate half)
+          (lambda (share out)
+            (funcall (the function (numerics-step-interpolate step)) (+ from (* 0.5d0 share)) out)))
+    (numerics-step-moment step from (numerics-step-from half))
+    (numerics-step-moment step to (numerics-step-to half))
+    half))
+
+(defun numerics-zeros-in-step (events step halvings)
+  "Zeros in STEP, which may be halved so often, in the order of time."
+  (numerics-sample-events events step)
+  (unless (numerics-events-sides events) (numerics-begin-events events step))
+  (let ((seen (numerics-seen-p events step)))
+    (unless (or seen (plusp halvings)) (incf (numerics-events-unseen events)))
+    (if (or seen (zerop halvings))
+        (numerics-wanted-zeros events step)
+        (loop for from in '(0d0 0.5d0)
+              append (loop for (share . zero) in (numerics-zeros-in-step
+                                                  events (numerics-half-of-step step from)
+                                                  (1- halvings))
+                           collect (cons (+ from (* 0.5d0 share)) zero))))))
 
 ;;; What the observer does
 
@@ -248,11 +330,16 @@ no value there is no zero, and it begins anew after that."
     (replace (numerics-step-to step) (numerics-step-from step))
     (replace (numerics-step-after step) before)))
 
+(defun numerics-zeros-of-step (events step)
+  "Zeros in STEP, of which more parts are looked at until this proves useless."
+  (setf (numerics-events-unseen events) 0)
+  (prog1 (numerics-zeros-in-step events step
+                                 (if (numerics-events-vague events) 2 *numerics-most-halvings*))
+    (when (> (numerics-events-unseen events) 16) (setf (numerics-events-vague events) t))))
+
 (defun numerics-see-events (events step)
   "Notes the zeros in STEP; :stop where one of them ends the run, and STEP ends there."
-  (numerics-sample-events events step)
-  (unless (numerics-events-sides events) (numerics-begin-events events step))
-  (loop for (share place direction) in (numerics-wanted-zeros events step)
+  (loop for (share place direction) in (numerics-zeros-of-step events step)
         for event = (numerics-event-of events step share place direction)
         do (push event (numerics-events-found events))
            (when (nth place (numerics-events-stops events))

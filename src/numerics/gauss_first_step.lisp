@@ -16,8 +16,8 @@
   (step 0d0 :type double-float))
 
 (defun numerics-gauss-fitting-step (problem controls moment state stages)
-  "The step from the controls, else from a pilot run; or the keyword of what went wrong there, and the
-time."
+  "The step from the controls, else from a pilot run; or the keyword of what went wrong there, and
+the time."
   (let* ((span (- (numerics-controls-end controls) (aref moment 0)))
          (given (numerics-controls-first-step controls)))
     (cond ((= span 0d0) span)
@@ -35,20 +35,27 @@ time."
    :half (numerics-new-gauss-run problem stages controls)
    :after (copy-seq state) :other (copy-seq state)))
 
+(defparameter *numerics-pilot-tries* 20
+  "After so many a step that is too short stands: at a corner none may fit the tolerance.")
+
 (defun numerics-gauss-pilot (pilot span)
   "The shortest step, with its sign, of a pilot run along a part of SPAN; or what went wrong. A step
 that cannot be made bounds all others."
   (let* ((largest (numerics-controls-largest-step (numerics-pilot-controls pilot)))
          (longest (min (abs span) (or largest (abs span))))
-         (shortest longest) (steps 0) (left (abs span)) (step (/ longest 100)))
+         (shortest longest) (steps 0) (tries 0) (left (abs span)) (step (/ longest 100)))
     (loop
+      (incf tries)
       (when (< step (* 1d-14 (abs span))) (return :no-convergence))
       (setf (numerics-pilot-step pilot) (float-sign span step))
       (let ((fit (numerics-pilot-fit pilot)))
         (unless fit (setq longest (/ step 2)))
         (let ((next (min longest (* step (or fit 0.5d0)))))
-          (when (and fit (or (<= 0.8d0 fit 2d0) (and (> fit 2d0) (= step longest))))
-            (setq shortest (min shortest next))
+          (when (and fit (or (<= 0.8d0 fit 2d0)
+                             (and (> fit 2d0)
+                                  (or (= step longest) (> tries *numerics-pilot-tries*)))))
+            (setq shortest (min shortest next)
+                  tries 0)
             (incf steps)
             (decf left step)
             (when (or (<= left 0d0) (>= steps (numerics-pilot-length span step)))

@@ -142,7 +142,8 @@ nil, WORK-PLACE that in the work vector; DOUBLE rounds a rational number."
                                        collect (cons (or place (funcall work-place node))
                                                      (funcall double coefficient)))))))
     (make-numerics-product
-     :constants (numerics-double-vector (loop for row in rows collect (funcall double (second row))))
+     :constants (numerics-double-vector
+                 (loop for row in rows collect (funcall double (second row))))
      :states (numerics-new-half (half t))
      :work (numerics-new-half (remove nil (half nil) :key #'cdr)))))
 

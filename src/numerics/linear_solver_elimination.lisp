@@ -4,8 +4,8 @@
 ;;; matrices: the entry of row i and column j stands at i + j*stride + offset, and is no zero only
 ;;; where -upper-lower <= i - j <= lower (the exchanges of rows widen the upper band). Rows are
 ;;; exchanged column by column as the elimination reaches them; what is 0 in the row of the pivot
-;;; costs nothing. On the diagonal of the factors stand the inverse pivots: many solutions follow one
-;;; elimination, and a product takes a fifth of the time of a quotient.
+;;; costs nothing. On the diagonal of the factors stand the inverse pivots: many solutions follow
+;;; one elimination, and a product takes a fifth of the time of a quotient.
 
 (in-package :maxima)
 

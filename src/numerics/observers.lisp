@@ -93,6 +93,10 @@ was found between two steps back to the constraints."
                                (* (1- count) (numerics-rows-width rows)))))
       (numerics-add-row rows time (numerics-outcome-state outcome)))))
 
+(defun numerics-row-state (rows k)
+  (let ((place (* k (numerics-rows-width rows))))
+    (subseq (numerics-rows-numbers rows) (1+ place) (+ place (numerics-rows-width rows)))))
+
 ;;; Progress
 
 (defun numerics-progress-part (controls)

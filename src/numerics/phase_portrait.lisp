@@ -5,8 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "algebra/program_record"
-                "numerics/native" "numerics/pictures" "numerics/plane" "numerics/rests_in_window" "numerics/run"
+  (core-require "algebra/program_nodes" "algebra/program_record" "numerics/native"
+                "numerics/pictures" "numerics/plane" "numerics/rests_in_window" "numerics/run"
                 "numerics/trajectories"))
 
 (defstruct numerics-portrait plane rests separatrices trajectories)
@@ -15,7 +15,8 @@
   "What is drawn of PLANE; SAID are the equilibria, or why there are none."
   (let ((portrait (numerics-with-masked-traps (numerics-portrait-of plane said))))
     (unless (or (numerics-portrait-separatrices portrait) (numerics-portrait-trajectories portrait))
-      (core-error "nothing moves in this window: the rates of ~{~a~^, ~} vanish there or have no value"
+      (core-error "nothing moves in this window: the rates of ~{~a~^, ~} vanish there or have no ~
+                   value"
                   (loop for axis in (numerics-plane-axes plane)
                         collect (numerics-name-text (numerics-axis-name axis)))))
     portrait))
@@ -148,5 +149,5 @@
      (algebra-field '$separatrices (length (numerics-portrait-separatrices portrait)))
      (algebra-field '$trajectories (length (numerics-portrait-trajectories portrait)))
      (algebra-field '$about (cons '(mlist simp) (reverse (numerics-rests-about rests))))
-     (algebra-field '$file (numerics-draw picture (numerics-portrait-preamble portrait)
-                                          (numerics-portrait-items portrait))))))
+     (algebra-field '$file (numerics-draw picture (cons (numerics-portrait-preamble portrait)
+                                                (numerics-portrait-items portrait)))))))

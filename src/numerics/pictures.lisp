@@ -1,8 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Pictures by Maxima's share package draw and gnuplot: PNG or SVG in a file, on the screen, or in
-;;; the worksheet of wxMaxima. gnuplot writes into a file of a plain name in the folder for temporary
-;;; ones, which is then put under the name that was asked for, whatever letters that has. What draw
-;;; keeps from one drawing to the next is out of the way meanwhile. Look first at numerics-draw.
+;;; the worksheet of wxMaxima. gnuplot writes into a file of a plain name in the folder for
+;;; temporary ones, which is then put under the name that was asked for, whatever letters that has.
+;;; What draw keeps from one drawing to the next is out of the way meanwhile. Look first at
+;;; numerics-draw.
 
 (in-package :maxima)
 
@@ -101,18 +102,28 @@
   (and (core-existing-file path)
        (with-open-file (stream (core-pathname path)) (plusp (file-length stream)))))
 
-(defun numerics-run-draw (terminal size preamble items)
-  "Draws ITEMS after the lines PREAMBLE."
+(defun numerics-scene-of-draw (scene)
+  "What draw takes for SCENE, (preamble . items)."
+  (list '($gr2d) (list* '(mlist simp) (numerics-option '$user_preamble (first scene))
+                        (rest scene))))
+
+(defun numerics-size-for (size scenes)
+  "The size of a picture of SCENES side by side, where one of them has SIZE."
+  (list (if (rest scenes) (round (* 3/2 (first size))) (first size)) (second size)))
+
+(defun numerics-run-draw (terminal size scenes)
+  "Draws SCENES, (preamble . items) each, side by side."
   (numerics-with-own-draw
    (lambda ()
      (core-unhurried
       (lambda ()
         (let ((*standard-output* (make-broadcast-stream)))
           (mfuncall '$draw
-                    (list '($gr2d)
-                          (list* '(mlist simp) (numerics-option '$user_preamble preamble) items))
+                    (cons '(mlist simp) (mapcar #'numerics-scene-of-draw scenes))
+                    (numerics-option '$columns (length scenes))
                     (numerics-option '$terminal terminal)
-                    (numerics-option '$dimensions (cons '(mlist simp) size))
+                    (numerics-option '$dimensions
+                                     (cons '(mlist simp) (numerics-size-for size scenes)))
                     (numerics-option '$file_name (numerics-temporary-path ""))
                     (numerics-option '$gnuplot_file_name (numerics-temporary ".gnuplot"))
                     (numerics-option '$data_file_name (numerics-temporary ".data")))))))))
@@ -120,11 +131,11 @@
 (defun numerics-remove-temporary (types)
   (dolist (type types) (algebra-remove-file (numerics-temporary-path type))))
 
-(defun numerics-draw-into-temporary (kind size preamble items)
+(defun numerics-draw-into-temporary (kind size scenes)
   "The path of the picture of KIND, which gnuplot made."
   (let ((path (numerics-temporary-path (if (eq kind '$svg) ".svg" ".png"))))
     (dolist (terminal (if (eq kind '$svg) '($svg) '($pngcairo $png)))
-      (numerics-run-draw terminal size preamble items)
+      (numerics-run-draw terminal size scenes)
       (when (numerics-filled-p path) (return-from numerics-draw-into-temporary path)))
     (core-error "gnuplot made no picture; is it installed, and `~a' its name? (gnuplot_command ~
                  tells another)" $gnuplot_command)))
@@ -139,18 +150,18 @@
 
 (defparameter *numerics-picture-size* '(900 720))
 
-(defun numerics-draw-file (file kind size preamble items)
-  (let ((made (numerics-draw-into-temporary kind size preamble items)))
+(defun numerics-draw-file (file kind size scenes)
+  (let ((made (numerics-draw-into-temporary kind size scenes)))
     (algebra-write-file file (lambda (stream) (numerics-copy-bytes made stream))
                         '(unsigned-byte 8))))
 
 (defun numerics-worksheet-p () (and (fboundp '$wxdraw2d) (boundp '$wxplot_size)))
 
-(defun numerics-draw-in-worksheet (preamble items)
+(defun numerics-draw-in-worksheet (scenes)
   "In wxMaxima, which takes the file and deletes it."
   (let* ((kind (if (and (boundp '$wxplot_usesvg) (symbol-value '$wxplot_usesvg)) '$svg '$png))
          (shown (numerics-temporary-path (if (eq kind '$svg) "_shown.svg" "_shown.png"))))
-    (numerics-draw-file shown kind (cdr (symbol-value '$wxplot_size)) preamble items)
+    (numerics-draw-file shown kind (cdr (symbol-value '$wxplot_size)) scenes)
     (core-afterwards
      (lambda () (mfuncall '$ldisp (list '(wxxmltag simp) shown "img" "del=\"yes\""))))))
 
@@ -161,29 +172,30 @@
   (some (lambda (name) (plusp (length (core-environment name))))
         '("DISPLAY" "WAYLAND_DISPLAY" "GNUTERM")))
 
-(defun numerics-draw-on-screen (preamble items)
+(defun numerics-draw-on-screen (scenes)
   "gnuplot leaves the name of its terminal in a file once it has one."
   (let ((mark (numerics-temporary-path ".shown")))
     (when (numerics-screen-p)
       (numerics-run-draw '$screen *numerics-picture-size*
-                         (format nil "~aset print ~a~%print GPVAL_TERM~%unset print~%" preamble
-                                 (numerics-gnuplot-text mark))
-                         items))
+                         (cons (cons (format nil "~aset print ~a~%print GPVAL_TERM~%unset print~%"
+                                             (first (first scenes)) (numerics-gnuplot-text mark))
+                                     (rest (first scenes)))
+                               (rest scenes))))
     (unless (numerics-filled-p mark)
-      (core-warn "no picture is shown: gnuplot, by the name `~a' (gnuplot_command), needs a screen; ~
-                  give file = \"name.png\"" $gnuplot_command))))
+      (core-warn "no picture is shown: gnuplot, by the name `~a' (gnuplot_command), needs a ~
+                  screen; give file = \"name.png\"" $gnuplot_command))))
 
-(defun numerics-draw (picture preamble items)
-  "The picture of ITEMS, options and objects of draw, after the lines PREAMBLE; the name of its
-file, or nil."
+(defun numerics-draw (picture &rest scenes)
+  "The picture of SCENES side by side, each (preamble . items), items being options and objects of
+draw; the name of its file, or nil."
   (let* ((file (numerics-picture-file picture))
          (*numerics-drawing* (format nil "dynarch~d_~d" (core-process-id)
                                      (incf *numerics-drawings*))))
     (numerics-load-draw)
     (unwind-protect
          (cond (file (numerics-draw-file file (numerics-picture-kind picture)
-                                         *numerics-picture-size* preamble items))
-               ((numerics-worksheet-p) (numerics-draw-in-worksheet preamble items))
-               (t (numerics-draw-on-screen preamble items)))
+                                         *numerics-picture-size* scenes))
+               ((numerics-worksheet-p) (numerics-draw-in-worksheet scenes))
+               (t (numerics-draw-on-screen scenes)))
       (numerics-remove-temporary '(".gnuplot" ".data" ".png" ".svg" ".shown")))
     file))

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; A plane of two states x, y of a system x' = X(x): the problem of these two alone, forwards and
-;;; backwards in time, in a window. What x' and y' depend on beside x and y is held at a given value;
-;;; the picture is one of the system where that stays as it is, else of a section, and it is said
-;;; which of them move. Look first at $numerics_plane.
+;;; backwards in time, in a window. What x' and y' depend on beside x and y is held at a given
+;;; value; the picture is one of the system where that stays as it is, else of a section, and it is
+;;; said which of them move. Look first at $numerics_plane.
 
 (in-package :maxima)
 
@@ -99,7 +99,8 @@
                     (numerics-rates-of rates names)))
 
 (defun numerics-same-after-p (routine count x place way)
-  "Whether the COUNT values of ROUTINE at X are the same where the state at PLACE is moved on by WAY."
+  "Whether the COUNT values of ROUTINE at X are the same where the state at PLACE is moved on by
+WAY."
   (let ((later (copy-seq x)) (here (numerics-zeros count)) (there (numerics-zeros count)))
     (incf (aref later place) way)
     (numerics-with-masked-traps
@@ -133,8 +134,8 @@ where it is not found."
           for place = (position input states :test #'alike1)
           when (and place (not (member input names :test #'alike1)))
             collect (cons input
-                          (notevery (lambda (x) (numerics-same-after-p routine (length names) x place
-                                                                       0.3d0))
+                          (notevery (lambda (x)
+                                      (numerics-same-after-p routine (length names) x place 0.3d0))
                                     places)))))
 
 (defun numerics-rates-of (rates names)

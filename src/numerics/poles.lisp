@@ -1,15 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Poles that a step passes. A method judges a step by a few values of the right-hand side; between
 ;;; them it may divide by zero, and the step come out with a state that looks right: of y' = tan(t),
-;;; whose pole is no double-float number, steps of the last place lead to the other side. So signs of
-;;; what is divided by are compared at both ends of each step. Where one has changed, the place is
-;;; found, and the right-hand side X looked at there: b X, b the divisor, goes to 0 with b where X
-;;; stays finite, as sin(x)/x does; at a pole it does not. See numerics-pole-part first.
+;;; whose pole is no double-float number, steps of the last place lead to the other side. So signs
+;;; of what is divided by are compared at both ends of each step. Where one has changed, the place
+;;; is found, and the right-hand side X looked at there: b X, b the divisor, goes to 0 with b where
+;;; X stays finite, as sin(x)/x does; at a pole it does not. See numerics-pole-part first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/right_side_divisors" "numerics/events" "numerics/problem" "numerics/program" "numerics/routine" "numerics/zeros_between"))
+  (core-require "numerics/right_side_divisors" "numerics/events" "numerics/problem"
+                "numerics/program" "numerics/routine" "numerics/zeros_between"))
 
 (defstruct numerics-poles
   elements rates routine scales                         ; RATES (moment x out): X
@@ -20,8 +21,8 @@
   (slope (numerics-zeros 0) :type numerics-vector))
 
 (defun numerics-new-poles (program positive rates scales)
-  "What looks for poles of the RATES of PROGRAM, of whose divisors the elements POSITIVE are none; nil
-where there cannot be any. SCALES are those of the states."
+  "What looks for poles of the RATES of PROGRAM, of whose divisors the elements POSITIVE are none;
+nil where there cannot be any. SCALES are those of the states."
   (with-numerics-program program
     (let ((elements (numerics-divisors (numerics-program-rates program) positive))
           (n (length (numerics-program-names program))))
@@ -32,8 +33,8 @@ where there cannot be any. SCALES are those of the states."
                              :state (numerics-zeros n) :slope (numerics-zeros n))))))
 
 (defun numerics-pole-part (poles found)
-  "A part of an observer that calls FOUND with words for what vanishes, and the time, and ends the run
-before a step over a pole."
+  "A part of an observer that calls FOUND with words for what vanishes, and the time, and ends the
+run before a step over a pole."
   (lambda (step)
     (let ((place (numerics-passed-pole poles step)))
       (when place
@@ -94,8 +95,8 @@ before a step over a pole."
     (aref moment 0)))
 
 (defun numerics-pole-p (poles step place)
-  "Whether b X, of the divisor b at PLACE, does not vanish where b does: at the zero of b, as near as
-numbers come, it is compared with that at a small distance."
+  "Whether b X, of the divisor b at PLACE, does not vanish where b does: at the zero of b, as near
+as numbers come, it is compared with that at a small distance."
   (let ((tolerance (numerics-share-tolerance step))
         (share (numerics-divisor-zero poles step place)))
     (multiple-value-bind (near at-near) (numerics-strength-near poles step place share tolerance)
@@ -125,8 +126,8 @@ numbers come, it is compared with that at a small distance."
     (values-list (if (> (abs (first left)) (abs (first right))) left right))))
 
 (defun numerics-at-least-visible (poles step b product)
-  "PRODUCT, each component at least such that it changes the state by 10^-6 of its scale in STEP, or in
-the last place of the time."
+  "PRODUCT, each component at least such that it changes the state by 10^-6 of its scale in STEP, or
+in the last place of the time."
   (let* ((from (aref (numerics-step-from step) 0)) (to (aref (numerics-step-to step) 0))
          (length (max (abs (- to from)) (* double-float-epsilon (+ (abs to) (abs from)))
                       least-positive-normalized-double-float)))
@@ -135,8 +136,8 @@ the last place of the time."
          product (numerics-step-before step) (numerics-poles-scales poles))))
 
 (defun numerics-strength-stays-p (ratio near far)
-  "Whether a component of NEAR is more than is left of that of FAR when b goes down by RATIO: half its
-square root."
+  "Whether a component of NEAR is more than is left of that of FAR when b goes down by RATIO: half
+its square root."
   (loop for a across near
         for b across far
           thereis (> (abs a) (* 0.5d0 (sqrt ratio) b))))

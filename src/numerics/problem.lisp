@@ -48,9 +48,11 @@
   (size 0 :type fixnum)
   (starts (make-array 1 :element-type '(unsigned-byte 32) :initial-element 0)
    :type (simple-array (unsigned-byte 32) (*)))
-  (rows (make-array 0 :element-type '(unsigned-byte 32)) :type (simple-array (unsigned-byte 32) (*))))
+  (rows (make-array 0 :element-type '(unsigned-byte 32))
+   :type (simple-array (unsigned-byte 32) (*))))
 
-(defstruct numerics-matrix pattern (values (numerics-zeros 0) :type (simple-array double-float (*))))
+(defstruct numerics-matrix
+  pattern (values (numerics-zeros 0) :type (simple-array double-float (*))))
 
 ;;; A problem.
 
@@ -78,12 +80,14 @@
 (defstruct numerics-controls
   (end 0d0 :type double-float)
   (relative 1d-8 :type double-float)
-  (scales (numerics-zeros 0) :type (simple-array double-float (*))) ; s_i = absolute/relative, angles 1
+  (scales (numerics-zeros 0) :type (simple-array double-float (*))) ; s_i = absolute/relative,
+                                                                    ; of angles 1
   (first-step nil)     ; nil: chosen by the method
   (largest-step nil)
   (most-steps nil)     ; nil: no limit
   (mends-start nil)    ; the algebraic part of an inconsistent start is mended, by implicit methods
-  (inspect nil)        ; nil, or (step): before a step of chosen length is accepted, nil, or the share
+  (inspect nil)        ; nil, or (step guessed): before a step of chosen length is accepted, or where
+                       ; it cannot be made and is GUESSED from the one before, nil, or the share
                        ; of it that may be, and whether that leads over a jump; or a sentence that
                        ; says why the run ends there
   (looks-for nil)      ; :stiffness, or :much-stiffness, of very many steps (explicit methods),
@@ -105,8 +109,8 @@
 
 (defstruct numerics-outcome
   status   ; :end, :stopped, :stiff, :not-stiff (of those that look for it), or what went wrong:
-           ; :not-finite, :smallest-step, :no-convergence, :most-steps, :too-slow, :singular, :sliding,
-           ; :inconsistent (the start, where the mass is singular)
+           ; :not-finite, :smallest-step, :no-convergence, :most-steps, :too-slow, :singular,
+           ; :sliding, :inconsistent (the start, where the mass is singular)
   moment state
   (step 0d0 :type double-float) ; the next step that the method would take
   about)   ; a sentence for a person, or nil

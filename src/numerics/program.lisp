@@ -1,14 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; A program whose inputs are the time and the states, M x' = X(t, x): the elements of X, of its
 ;;; guards, and the constant matrix M. It comes from a record, in which all parameters have become
-;;; numbers, or from elements. Whoever adds elements to it does so inside with-numerics-program, so
+;;; numbers, or from rates. Whoever adds elements to it does so inside with-numerics-program, so
 ;;; that what is shared is computed once.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"
-                "algebra/program_record"))
+                "algebra/program_record" "forms/program_judge" "forms/rates"))
 
 (defstruct numerics-program
   algebra  ; the program in which the elements were made
@@ -25,6 +25,16 @@
   "The nodes of the states."
   (with-numerics-program program
     (mapcar #'algebra-program-input (numerics-program-names program))))
+
+;;; From rates, in whose program they were made.
+
+(defun numerics-program-of (rates)
+  (make-numerics-program
+   :algebra (forms-rates-program rates) :names (forms-rates-states rates)
+   :rates (algebra-output-elements (forms-output '$rates (forms-rates-outputs rates)))
+   :mass (forms-rates-mass rates)
+   :guards (loop for (nil pivot . whole) in (forms-rates-guards rates)
+                 collect (algebra-program-divide pivot whole))))
 
 ;;; From a record with the outputs rates, mass and guards, the last two where there are such.
 

@@ -1,11 +1,11 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The state inside a step of Radau IIA. The collocation polynomial p is of degree 3, and of a stiff
-;;; state, whose error is damped at the end of the step, it may be thousands of tolerances off between:
-;;; nothing in the estimate of the step sees it. What p lacks is seen where it is continued to the
-;;; second stage of the step before, at the share r < 0 of this one: with w(s) = s (s - c1) (s - c2)
-;;; (s - 1) the error is about w(s)/w(r) times the one there. Where that is more than the tolerance a
-;;; step of 4/5 of the length gives three states more, and the polynomial through all seven is taken.
-;;; See numerics-radau-dense-function first.
+;;; The state inside a step of Radau IIA. The collocation polynomial p is of degree 3, and of a
+;;; stiff state, whose error is damped at the end of the step, it may be thousands of tolerances off
+;;; between: nothing in the estimate of the step sees it. What p lacks is seen where it is continued
+;;; to the second stage of the step before, at the share r < 0 of this one: with w(s) = s (s - c1)
+;;; (s - c2) (s - 1) the error is about w(s)/w(r) times the one there. Where that is more than the
+;;; tolerance a step of 4/5 of the length gives three states more, and the polynomial through all
+;;; seven is taken. See numerics-radau-dense-function first.
 
 (in-package :maxima)
 
@@ -61,8 +61,8 @@
     nil))
 
 (defun numerics-radau-lack (run)
-  "The largest error of the collocation polynomial within the step, over the tolerance; a large number
-in a first step."
+  "The largest error of the collocation polynomial within the step, over the tolerance; a large
+number in a first step."
   (numerics-with-radau (run older older-step step point weights)
     (if (= older-step 0d0)
         1d9
@@ -99,7 +99,8 @@ in a first step."
     (replace (numerics-radau-run-moment inner) (numerics-step-from (numerics-radau-run-seen run)))
     (replace (numerics-radau-run-before inner) (numerics-radau-run-before run))
     (replace (numerics-radau-run-entries inner) (numerics-radau-run-entries run))
-    (setf (numerics-radau-run-step inner)
+    (setf (numerics-radau-run-trust inner) 0
+          (numerics-radau-run-step inner)
           (* *numerics-radau-inner-share* (numerics-radau-run-step run)))
     (numerics-radau-weigh inner nil)
     (numerics-radau-guess-stages inner)

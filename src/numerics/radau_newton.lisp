@@ -8,7 +8,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/problem"
-                "numerics/radau_coefficients" "numerics/radau_run"))
+                "numerics/radau_coefficients" "numerics/radau_run" "numerics/sparse"))
 
 (defparameter *numerics-radau-iterations* 7)
 
@@ -227,3 +227,31 @@ fast enough."
       (loop repeat (1- left) do (setq last-change (* convergence last-change)))
       (when (and (plusp left) (>= last-change 1d0))
         (* 0.8d0 (expt (min 20d0 last-change) (/ -1d0 (+ 3 left))))))))
+
+;;; One iteration says nothing of how they converge. But the slope at the end of the step is known
+;;; soon, and what the last stage lacks there, divided by the matrix, is about the change that a
+;;; second iteration would bring: beside a square root that goes to 0 the Jacobian that was kept may
+;;; be so much too large that stages which are a thousand times too far seem to be found.
+
+(defun numerics-radau-deceived-p (run)
+  "Whether stages that one iteration found are not those of the slope ahead."
+  (numerics-with-radau (run iterations change controls single weights r1)
+    (when (= iterations 1)
+      (numerics-radau-last-residual run)
+      (numerics-solve single r1)
+      (let ((next (numerics-weighted-size weights r1)))
+        (and (> next (* 0.1d0 change))
+             (> next (/ 1d-15 (numerics-controls-relative controls))))))))
+
+(defun numerics-radau-last-residual (run)
+  "X at the end of the step less M times the slope of the stages there, into r1."
+  (numerics-with-radau (run ahead mass step w1 w2 w3 r1 r2)
+    (numerics-with-radau-numbers (t31 single-root pair-root pair-turn)
+      (dotimes (i (length r1))
+        (setf (aref r2 i) (/ (+ (* t31 single-root (aref w1 i)) (* pair-root (aref w2 i))
+                                (- (* pair-turn (aref w3 i))))
+                             step))))
+    (if mass
+        (numerics-multiply (numerics-matrix-pattern mass) (numerics-matrix-values mass) r2 r1)
+        (replace r1 r2))
+    (map-into r1 #'- ahead r1)))

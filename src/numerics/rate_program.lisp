@@ -9,8 +9,8 @@
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
                 "forms/fixed" "forms/program_judge" "forms/rates"
-                "forms/value" "numerics/mass_index"
-                "numerics/rate_mass"))
+                "forms/value" "numerics/assumed_values" "numerics/directions"
+                "numerics/mass_index" "numerics/program" "numerics/rate_mass" "numerics/right_side_divisors"))
 
 ;;; Values.
 
@@ -62,9 +62,6 @@
                       collect (format nil "~a = ~a" (core-words (list name))
                                       (numerics-value-text element)))
                 (and guard (core-words (list (first guard)))))))
-
-(defun numerics-value-text (element)
-  (if (numberp element) (core-words (list (algebra-maxima-rational element))) "its value"))
 
 (defun numerics-nought-p (element)
   "Whether ELEMENT vanishes, at sight or at a random point."
@@ -157,6 +154,24 @@ sight."
   (count-if-not #'algebra-input-p
                 (algebra-live-nodes (numerics-right-sides rates))))
 
+(defun numerics-entry-fields (rates)
+  "How many entries dX_i/dx_j of RATES there are, and [i, j, value] of those that are constant."
+  (let* ((program (numerics-program-of rates)) (constants (numerics-constant-slopes program)))
+    (list (algebra-field '$entries (loop for set in (numerics-dependences program)
+                                         sum (logcount set)))
+          (algebra-field
+           '$constant_entries
+           (cons '(mlist simp)
+                 (loop for (i j) in (sort (loop for place being the hash-keys of constants
+                                                collect place)
+                                          #'numerics-place-before-p)
+                       collect (algebra-list (1+ i) (1+ j)
+                                             (algebra-maxima-rational
+                                              (gethash (list i j) constants)))))))))
+
+(defun numerics-place-before-p (a b)
+  (or (< (first a) (first b)) (and (= (first a) (first b)) (< (second a) (second b)))))
+
 (defun numerics-constant-mass-p (rates)
   (let ((moving (if (forms-rates-split rates)
                     (subseq (forms-rates-states rates) 0 (forms-rates-split rates))
@@ -173,6 +188,7 @@ sight."
 M as far as it goes; and whether M is constant."
   (let ((new (numerics-exchanged-rates rates pairs)))
     (numerics-check-exchange rates new pairs)
+    (numerics-check-assumed pairs)
     (values (numerics-checked-index (numerics-settled-rates new solved) rates pairs)
             (numerics-constant-mass-p new))))
 
@@ -190,10 +206,11 @@ M as far as it goes; and whether M is constant."
       (multiple-value-bind (new constant) (numerics-run-rates rates pairs solved)
         (numerics-program-record
          new
-         (list (algebra-field '$mass_constant constant)
-               (algebra-field '$operations_before (numerics-operations-without rates solved))
-               (algebra-field '$operations_after (numerics-operations new))
-               (algebra-field '$zero
-                              (cons '(mlist simp)
-                                    (loop for (name . element) in pairs
-                                          when (eql element 0) collect name)))))))))
+         (list* (algebra-field '$mass_constant constant)
+                (algebra-field '$operations_before (numerics-operations-without rates solved))
+                (algebra-field '$operations_after (numerics-operations new))
+                (algebra-field '$zero
+                               (cons '(mlist simp)
+                                     (loop for (name . element) in pairs
+                                           when (eql element 0) collect name)))
+                (numerics-entry-fields new)))))))

@@ -18,8 +18,8 @@ OPTIONS are those of numerics-problem-of."
          options))
 
 (defun numerics-problem-of (program &key (jacobian t) (how :auto) (calls 0))
-  "JACOBIAN nil leaves the jacobian for numerics-add-jacobian. HOW is :machine, :compiled or :auto, by
-the number of CALLS of the rates that are expected."
+  "JACOBIAN nil leaves the jacobian for numerics-add-jacobian. HOW is :machine, :compiled or :auto,
+by the number of CALLS of the rates that are expected."
   (let ((problem (make-numerics-problem
                   :size (length (numerics-program-names program))
                   :rates (numerics-routine program (numerics-program-rates program)

@@ -29,13 +29,43 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
            ("equations" "equations" "start" "time"))
   :trailing '("start" "time")
-  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "first_step" "integrals"
-             "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces" "constraints"
-             "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
+  :options '("values" "method" "points" "tolerance" "events" "stop" "digits" "first_step"
+             "integrals" "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces"
+             "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
 (core-rule "derivation_began" :any "numerics/native" "numerics_working_seconds")
 (core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"
   *numerics-values* "start" "time" "run")
+
+;;; What methods reach, and what it costs
+
+(core-rule "trial" :any "numerics/trial" "numerics_trial" "derivation_began" "rates"
+  *numerics-values* "start" "time")
+
+(core-public "ReferenceSolution"
+  :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
+           ("equations" "equations" "start" "time"))
+  :trailing '("start" "time")
+  :options '("values" "integrals" "rayleigh" "forces" "constraints" "nonholonomic" "laws" "function"
+             "cyclic" "momenta" "variables")
+  :kinds (core-kind-names) :numerical t)
+(core-rule "ReferenceSolution" :any "numerics/trial_reference" "numerics_reference_solution"
+  "trial")
+
+(core-public "ErrorAgainstTime"
+  :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
+           ("equations" "equations" "start" "time"))
+  :trailing '("start" "time")
+  :options '("values" "methods" "tolerances" "cell" "file" "replace" "integrals" "rayleigh" "forces"
+             "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
+  :kinds (core-kind-names) :numerical t)
+(core-rule "contest" :any "numerics/error_against_time" "numerics_contest" "trial"
+  '("methods" ((mlist simp) $auto $dop853 $radau $gauss $dlsode))
+  '("tolerances" ((mlist simp) 1d-4 1d-6 1d-8 1d-10 1d-12)) '("cell" 2))
+(core-rule "ErrorAgainstTime" :any "numerics/error_against_time" "numerics_error_against_time"
+  "contest" "ReferenceSolution")
+(core-act "ErrorAgainstTime" nil :any "numerics/error_plot" "numerics_error_plot" "picture"
+  "ErrorAgainstTime")
 
 ;;; Pictures
 

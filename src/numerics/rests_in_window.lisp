@@ -40,7 +40,8 @@
   (loop for (name . held) in (numerics-plane-held plane)
         for value = (numerics-rest-value name solution)
         always (or (null value) (not ($constantp value))
-                   (let ((there (numerics-number-or-nil value)) (here (numerics-number-or-nil held)))
+                   (let ((there (numerics-number-or-nil value))
+                         (here (numerics-number-or-nil held)))
                      (and there (< (abs (- there here)) (* 1d-9 (max 1d0 (abs here)))))))))
 
 (defun numerics-solution-held (plane solution)
@@ -156,12 +157,13 @@
 (defun numerics-say-zeros (rests plane why)
   "Adds zeros of PLANE to RESTS and says so; WHY, or nil, are there none but these."
   (let ((count (numerics-add-zeros rests plane)))
-    (cond (why (numerics-say-about rests "equilibria are found by Newton's method, and not judged: ~a"
-                                   (numerics-reason why)))
+    (cond (why (numerics-say-about
+                rests "equilibria are found by Newton's method, and not judged: ~a"
+                (numerics-reason why)))
           ((plusp count)
-           (numerics-say-about rests "the ~[~;point that is~:;points that are~] not decided: the two ~
-                                      rates vanish, found by Newton's method; what is not drawn may ~
-                                      move" count)))))
+           (numerics-say-about
+            rests "the ~[~;point that is~:;points that are~] not decided: the two rates vanish, ~
+                   found by Newton's method; what is not drawn may move" count)))))
 
 (defun numerics-rests-in-window (plane said)
   "The equilibria of PLANE; SAID is [points], or the text why there are none."

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; What a right-hand side divides by, as far as it may change its sign: the factors of its
-;;; denominators without those that are sums of squares and the like. And elements as expressions, for
-;;; messages. See numerics-divisors first.
+;;; denominators without those that are sums of squares and the like. And elements as expressions,
+;;; for messages. See numerics-divisors first.
 
 (in-package :maxima)
 
@@ -60,3 +60,6 @@
                      ((algebra-input-p e) (algebra-node-left e))
                      (t (algebra-written-node e #'written)))))
       (core-words (list (written element))))))
+
+(defun numerics-value-text (element)
+  (or (numerics-element-words element) "its value"))

@@ -1,19 +1,17 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; A run of M x' = X(t, x): the problem made from the rates with numbers put in, the start, what
 ;;; looks on, and the method. What cannot be run is refused before the first step: a name without a
-;;; value, a start off a constraint or where the equations have no value or divide by a pivot that is
-;;; lost. Look first at numerics-new-run, then at numerics-make-run.
+;;; value, a start off a constraint or where the equations have no value or divide by a pivot that
+;;; is lost. Look first at numerics-new-run, then at numerics-make-run.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "forms/dynamics"
-                "forms/program_judge" "forms/rates" "numerics/constrained" "numerics/decimals"
-                "numerics/events"
-                "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
-                "numerics/back_to_constraints" "numerics/rates_problem" "numerics/routine"
-                "numerics/run_options"))
+                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/constrained"
+                "numerics/decimals" "numerics/events" "numerics/native" "numerics/observers"
+                "numerics/problem" "numerics/program" "numerics/back_to_constraints"
+                "numerics/rates_problem" "numerics/routine" "numerics/run_options"))
 
 (defstruct numerics-simulation
   rates values wishes program problem controls      ; VALUES: ((name . element) ..)
@@ -22,7 +20,8 @@
   rows events guards constraints outcome
   drifts drifting                                   ; those of integrals, and their names
   untold                                            ; sentences on integrals that are not given
-  lost                                              ; (coordinate share) of a pivot that was lost
+  lost                                              ; (name share) of a pivot that was lost
+  shares                                            ; vector: what is left of each pivot at worst
   fault                                             ; why an observer ended it, a phrase
   (began 0d0)                                       ; when the method began
   (seconds 0d0)                                     ; of the method alone, without compilations
@@ -32,14 +31,6 @@
 (defun numerics-name-text (name) (core-words (list name)))
 
 ;;; From rates and wishes
-
-(defun numerics-program-of (rates)
-  (make-numerics-program
-   :algebra (forms-rates-program rates) :names (forms-rates-states rates)
-   :rates (algebra-output-elements (forms-output '$rates (forms-rates-outputs rates)))
-   :mass (forms-rates-mass rates)
-   :guards (loop for (nil pivot . whole) in (forms-rates-guards rates)
-                 collect (algebra-program-divide pivot whole))))
 
 (defun numerics-open-names (rates elements)
   "What has no value in ELEMENTS, as texts."
@@ -79,9 +70,9 @@
                           (remove '$rates outputs :key #'car)))
              copy))))
 
-(defun numerics-new-run (rates values start span wishes)
-  "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES were
-put in, pairs (name . element)."
+(defun numerics-new-run (rates values start span wishes &key (how :auto))
+  "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES
+were put in, pairs (name . element). HOW as of numerics-problem-of."
   (numerics-check-names rates (numerics-run-elements rates))
   (destructuring-bind (from to)
       (mapcar (lambda (e) (numerics-double e "an end of the span")) (numerics-read-span span))
@@ -90,7 +81,7 @@ put in, pairs (name . element)."
                  :rates rates :values values :wishes wishes :program program
                  :moment (numerics-moment from)
                  :state (numerics-start-vector rates start)
-                 :problem (numerics-problem-of program :jacobian nil))))
+                 :problem (numerics-problem-of program :jacobian nil :how how))))
       (setf (numerics-simulation-controls run) (numerics-controls-of rates wishes to)
             (numerics-simulation-guards run) (numerics-guard-routine program)
             (numerics-simulation-constraints run) (numerics-constraints-of rates program))
@@ -98,6 +89,32 @@ put in, pairs (name . element)."
       (setf (numerics-simulation-rows run) (numerics-wished-rows run from to)
             (numerics-simulation-events run) (numerics-wished-events run))
       run)))
+
+(defun numerics-run-again (run controls wishes)
+  "A run of the same from the start, with CONTROLS and WISHES of its own, as if nothing had run
+yet."
+  (let ((again (copy-numerics-simulation run)))
+    (setf (numerics-simulation-controls again) controls
+          (numerics-simulation-wishes again) wishes
+          (numerics-simulation-drifts again) nil
+          (numerics-simulation-drifting again) nil
+          (numerics-simulation-outcome again) nil
+          (numerics-simulation-lost again) nil
+          (numerics-simulation-fault again) nil
+          (numerics-simulation-constraints again)
+          (numerics-fresh-constraints (numerics-simulation-constraints run))
+          (numerics-simulation-rows again)
+          (numerics-wished-rows again (aref (numerics-simulation-moment run) 0)
+                                (numerics-controls-end controls))
+          (numerics-simulation-events again) (numerics-wished-events again))
+    again))
+
+(defun numerics-fresh-constraints (constraints)
+  "CONSTRAINTS as they were before a run, with the same places to work in."
+  (when constraints
+    (let ((copy (copy-numerics-constraints constraints)))
+      (setf (numerics-constraints-singular copy) nil (numerics-constraints-largest copy) 0d0)
+      copy)))
 
 (defun numerics-start-values (rates start values)
   "The exact start values of the states of RATES; velocities and momenta that are not named are 0,
@@ -133,8 +150,7 @@ momenta that have one of VALUES, equations, begin with it."
     (dolist (place (numerics-angle-places rates)) (setf (aref scales place) 1d0))
     (make-numerics-controls
      :end end :relative relative :scales scales
-     :first-step (let ((step (numerics-wishes-step wishes)))
-                   (unless (eql step 0) (numerics-double step "first_step"))))))
+     :first-step (numerics-read-first-step (numerics-wishes-step wishes)))))
 
 (defun numerics-guard-routine (program)
   (when (numerics-program-guards program)
@@ -144,9 +160,10 @@ momenta that have one of VALUES, equations, begin with it."
 ;;; What looks on
 
 (defun numerics-wished-rows (run from to)
-  (numerics-new-rows (numerics-read-points (numerics-wishes-points (numerics-simulation-wishes run)) from to)
-                     (numerics-simulation-moment run) (numerics-simulation-state run)
-                     (numerics-back-to-constraints run)))
+  (let ((points (numerics-wishes-points (numerics-simulation-wishes run))))
+    (numerics-new-rows (numerics-read-points points from to)
+                       (numerics-simulation-moment run) (numerics-simulation-state run)
+                       (numerics-back-to-constraints run))))
 
 (defun numerics-back-to-constraints (run)
   "The function (moment x) that brings a state between two steps back to the constraints, or nil."
@@ -169,6 +186,8 @@ momenta that have one of VALUES, equations, begin with it."
     (unless (and (consp events) (eq (caar events) 'mlist))
       (core-error "events is a list of expressions whose zeros are looked for, found ~a"
                   (core-words (list events))))
+    (when (and (numerics-wishes-stop wishes) (null (cdr events)))
+      (core-error "stop = true ends a run at the first of the events; give events = [..]"))
     (mapcar (lambda (e)
               (if (and (consp e) (eq (caar e) 'mequal)) (sub (second e) (third e)) e))
             (cdr events))))
@@ -188,10 +207,10 @@ momenta that have one of VALUES, equations, begin with it."
   "Share of itself that a pivot may lose by subtraction: below nothing is left of 16 digits.")
 
 (defun numerics-check-start (run)
-  (numerics-check-pivots run (numerics-simulation-moment run) (numerics-simulation-state run))
   (when (numerics-simulation-constraints run)
     (numerics-check-constraints (numerics-simulation-constraints run)
                                 (numerics-simulation-moment run) (numerics-simulation-state run)))
+  (numerics-check-pivots run (numerics-simulation-moment run) (numerics-simulation-state run))
   (let ((rates (numerics-zeros (length (numerics-simulation-state run)))))
     (numerics-with-masked-traps
       (funcall (numerics-problem-rates (numerics-simulation-problem run))
@@ -203,25 +222,46 @@ momenta that have one of VALUES, equations, begin with it."
                               singular there: start elsewhere" (numerics-name-text name)))))))
 
 (defun numerics-lost-pivot (run moment state)
-  "The coordinate whose pivot is lost at STATE, and what is left of it; nil where there is none."
+  "The name whose pivot is lost at STATE, and what is left of it; nil where there is none. What is
+left of each at worst is noted."
   (when (numerics-simulation-guards run)
-    (let ((shares (numerics-zeros (length (forms-rates-guards (numerics-simulation-rates run))))))
+    (let* ((guards (forms-rates-guards (numerics-simulation-rates run)))
+           (shares (numerics-zeros (length guards))))
       (numerics-with-masked-traps
         (funcall (numerics-simulation-guards run) moment state shares)
+        (numerics-note-shares run shares)
         (loop for share across shares
-              for (name) in (forms-rates-guards (numerics-simulation-rates run))
+              for (name) in guards
               unless (> (abs share) *numerics-least-pivot*)
-                do (return (list (numerics-name-text name) share)))))))
+                do (return (list name share)))))))
 
-(defun numerics-lost-words (lost)
-  "What is said of a pivot that is LOST: (coordinate share); where M_kk is 0 too the share is no number."
+(defun numerics-note-shares (run shares)
+  (let ((least (numerics-simulation-shares run)))
+    (if least
+        (map-into least (lambda (a b) (if (< (abs b) a) (abs b) a)) least shares)
+        (setf (numerics-simulation-shares run) (map 'numerics-vector #'abs shares)))))
+
+(defun numerics-multiplier-p (name run)
+  "Whether NAME, of a guard, is that of a multiplier, and of no coordinate."
+  (not (member name (append (forms-rates-states (numerics-simulation-rates run))
+                            (forms-rates-cyclic (numerics-simulation-rates run)))
+               :test #'alike1)))
+
+(defun numerics-lost-words (run lost)
+  "What is said of a pivot that is LOST in RUN: (name share); where M_kk is 0 too the share is no
+number."
   (destructuring-bind (name share) lost
-    (if (numerics-with-masked-traps (= share share))
-        (format nil "of the inertia of ~a ~a of 1 is left when the bodies beyond it yield"
-                name (numerics-short-number share))
-        (format nil "the inertia of ~a vanishes" name))))
+    (let ((left (and (numerics-with-masked-traps (= share share)) (numerics-short-number share)))
+          (word (numerics-name-text name)))
+      (cond ((numerics-multiplier-p name run)
+             (format nil "the constraints nearly depend on each other: of what determines ~a ~
+                          ~:[nothing~;~:*~a of 1~] is left" word left))
+            (left (format nil "of the inertia of ~a ~a of 1 is left when the bodies beyond it yield"
+                          word left))
+            (t (format nil "the inertia of ~a vanishes" word))))))
 
 (defun numerics-check-pivots (run moment state)
   (let ((lost (numerics-lost-pivot run moment state)))
     (when lost
-      (core-error "the mass matrix is singular at the start: ~a" (numerics-lost-words lost)))))
+      (core-error "~:[the mass matrix is singular at the start: ~;at the start ~]~a"
+                  (numerics-multiplier-p (first lost) run) (numerics-lost-words run lost)))))

@@ -6,11 +6,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "forms/rates" "numerics/back_to_constraints" "numerics/dead_points"
-                "numerics/decimals" "numerics/drifts" "numerics/events"
-                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
-                "numerics/problem"
-                "numerics/routine" "numerics/run" "numerics/run_options"
-                "numerics/switches"))
+                "numerics/decimals" "numerics/drifts" "numerics/events" "numerics/jacobian"
+                "numerics/native" "numerics/observers" "numerics/poles" "numerics/problem"
+                "numerics/right_side_divisors" "numerics/routine" "numerics/run"
+                "numerics/run_options" "numerics/switches"))
 
 ;;; Methods
 
@@ -19,15 +18,16 @@
     ($dop853 "numerics/dormand_prince" numerics-dopri)
     ($radau "numerics/radau" numerics-radau)
     ($gauss "numerics/gauss" numerics-gauss)
-    ($dlsode "numerics/dlsode" numerics-dlsode))
-  "Each row: the word for a method, its part and its function.")
+    ($dlsode "numerics/dlsode" numerics-dlsode numerics-load-dlsode))
+  "Each row: the word for a method, its part, its function, and one that loads what else it needs.")
 
 (defparameter *numerics-implicit-methods* '($auto $radau $dlsode) "Those that take a jacobian.")
 
 (defun numerics-method (run)
-  (destructuring-bind (part function)
+  (destructuring-bind (part function &optional loader)
       (cdr (assoc (numerics-wishes-method (numerics-simulation-wishes run)) *numerics-methods*))
     (core-require part)
+    (when loader (funcall loader))
     function))
 
 (defun numerics-prepare-method (run)
@@ -39,12 +39,19 @@
     (cond ((and (eq method '$dlsode) (numerics-simulation-constraints run))
            (core-error "the steps of dlsode build on each other, and constraints change the state ~
                         after each; take method = auto"))
+          ((and (eq method '$dlsode)
+                (numerics-jumps-of-states (numerics-simulation-program run)))
+           (core-error "the steps of dlsode build on each other, and the right-hand side may jump ~
+                        where ~a = 0, which the states decide; take method = auto"
+                       (or (numerics-element-words
+                            (first (numerics-jumps-of-states (numerics-simulation-program run))))
+                           "the argument of a sign")))
           ((member method *numerics-implicit-methods*)
            (unless (numerics-problem-jacobian problem) (numerics-add-jacobian problem))
            (numerics-warn-of-start run))
           ((numerics-problem-mass problem)
-           (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is not ~
-                        divided out; take method = radau" (core-spelling method))))
+           (core-error "the method ~a takes x' = .., and here M x' = .. with a matrix M that is ~
+                        not divided out; take method = radau" (core-spelling method))))
     (numerics-method run)))
 
 (defun numerics-warn-of-start (run)
@@ -99,8 +106,8 @@ more than one solution may begin there."
 (defparameter *numerics-cutting-methods* '($auto $dop853 $radau) "Those that inspect a step.")
 
 (defun numerics-run-switch-part (run)
-  "Where the right-hand side of RUN has jumps or corners, a method that can looks at each of its steps;
-for others a part of an observer, or nil."
+  "Where the right-hand side of RUN has jumps or corners, a method that can looks at each of its
+steps; for others a part of an observer, or nil."
   (let* ((controls (numerics-simulation-controls run)) (wishes (numerics-simulation-wishes run))
          (switches (numerics-new-switches
                     (numerics-simulation-program run) (numerics-simulation-problem run)
@@ -108,7 +115,7 @@ for others a part of an observer, or nil."
     (cond ((null switches) nil)
           ((member (numerics-wishes-method wishes) *numerics-cutting-methods*)
            (setf (numerics-controls-inspect controls)
-                 (lambda (step) (numerics-inspect-switches switches step)))
+                 (lambda (step guessed) (numerics-inspect-switches switches step guessed)))
            nil)
           (t (numerics-switch-part
               switches (lambda (trouble) (setf (numerics-simulation-fault run) trouble)))))))
@@ -132,29 +139,33 @@ for others a part of an observer, or nil."
 (defparameter *numerics-share-of-time* 9/10
   "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
 
-(defun numerics-carry-out (run)
-  "Makes the RUN; the sentence of the stop where its time was up or the person interrupted it."
+(defun numerics-within-share (function) (core-within *numerics-share-of-time* function))
+
+(defun numerics-carry-out (run &optional (within #'numerics-within-share))
+  "Makes the RUN; two values: the sentence of the stop where its time was up or the person
+interrupted it, and whether it was the latter. WITHIN calls a function within a time, as
+core-within."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
-         (began (numerics-seconds)) (compiled *numerics-compile-seconds*) (outcome nil))
+         (began (core-clock)) (compiled *numerics-compile-seconds*) (outcome nil))
     (setf (numerics-simulation-began run) (numerics-working-seconds))
     (multiple-value-bind (value stop)
-        (core-within *numerics-share-of-time*
-                     (lambda ()
-                       (numerics-interruptible
-                         (numerics-with-masked-traps
-                           (setq outcome (funcall method (numerics-simulation-problem run)
-                                                  (numerics-simulation-controls run)
-                                                  (copy-seq (numerics-simulation-moment run))
-                                                  (copy-seq (numerics-simulation-state run))
-                                                  observer))))))
+        (funcall within
+                 (lambda ()
+                   (numerics-interruptible
+                     (numerics-with-masked-traps
+                       (setq outcome (funcall method (numerics-simulation-problem run)
+                                              (numerics-simulation-controls run)
+                                              (copy-seq (numerics-simulation-moment run))
+                                              (copy-seq (numerics-simulation-state run))
+                                              observer))))))
       (when (eq value :interrupted)
         (setq stop (format nil "interrupted~@[ at ~a~]" *core-doing*)))
       (let ((compilation (- *numerics-compile-seconds* compiled)))
-        (setf (numerics-simulation-seconds run) (- (numerics-seconds) began compilation)
+        (setf (numerics-simulation-seconds run) (- (core-clock) began compilation)
               (numerics-simulation-compiled-on-the-way run) compilation
               (numerics-simulation-outcome run) outcome))
       (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))
-      stop)))
+      (values stop (eq value :interrupted)))))
 
 ;;; How it ended
 
@@ -171,8 +182,9 @@ for others a part of an observer, or nil."
 
 (defun numerics-trouble-of-steps (run outcome)
   (if (numerics-simulation-lost run)
-      (format nil "the mass matrix becomes singular: ~a"
-              (numerics-lost-words (numerics-simulation-lost run)))
+      (format nil "~:[the mass matrix becomes singular: ~;~]~a"
+              (numerics-multiplier-p (first (numerics-simulation-lost run)) run)
+              (numerics-lost-words run (numerics-simulation-lost run)))
       (format nil (ecase (numerics-outcome-status outcome)
                     (:not-finite "the right-hand side has no finite value there")
                     (:smallest-step "the step became as small as the last place of t: the solution ~
@@ -182,6 +194,6 @@ for others a part of an observer, or nil."
                     (:most-steps "the most steps that were allowed are made")
                     (:too-slow "the steps became too short")
                     (:singular "the matrix of the implicit steps is singular")
-                    (:stiff "the motion is stiff there, and an explicit method would need more than a ~
-                             million steps; take method = radau, or auto")
+                    (:stiff "the motion is stiff there, and an explicit method would need more ~
+                             than a million steps; take method = radau, or auto")
                     (:sliding "no solution in the ordinary sense goes on there")))))

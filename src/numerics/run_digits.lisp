@@ -60,8 +60,9 @@ began at BEGAN."
                     (core-words (list (numerics-controls-end (numerics-simulation-controls run))))
                     trouble))
     (numerics-warn-of-drifts run)
-    (core-report "run" (numerics-report run (numerics-long-fields run (or trouble "reached the end"))
-                                        (numerics-residual-fields run rows)))))
+    (core-report "run" (numerics-report
+                        run (numerics-long-fields run (or trouble "reached the end"))
+                        (numerics-residual-fields run rows)))))
 
 (defun numerics-long-fields (run status)
   (let ((agreement (numerics-taylor-outcome-agreement (numerics-simulation-outcome run))))
@@ -124,11 +125,15 @@ without constraints."
               maximize (loop for value in (funcall function row)
                              maximize (abs (core-bigfloat-rational value))))))))
 
+(defun numerics-start-residual (run start time digits)
+  "What START, exact values, violates the constraints by, computed to more than DIGITS; nil without
+any."
+  (numerics-exact-residual run (list (numerics-big-start (cons time start) (+ digits 10)))
+                           (+ digits 10)))
+
 (defun numerics-check-exact-start (run start time digits)
   "An error where START violates the constraints beyond DIGITS."
-  (let ((residual (numerics-exact-residual
-                   run (list (numerics-big-start (cons time start) (+ digits 10)))
-                   (+ digits 10))))
+  (let ((residual (numerics-start-residual run start time digits)))
     (when (and residual (> residual (expt 10 (- digits))))
       (core-error "the start is off the constraints by ~a; for ~d digits give it exactly, such as ~
                    acos(1/3)"
@@ -149,10 +154,11 @@ without constraints."
   (let* ((digits (numerics-wishes-digits (numerics-simulation-wishes run)))
          (integrals (numerics-told-integrals run)))
     (when (and integrals (cdr rows))
-      (setf (numerics-simulation-drifting run) (mapcar #'first integrals)
+      (setf (numerics-simulation-drifting run) (mapcar #'forms-first-integral-name integrals)
             (numerics-simulation-drifts run)
             (let ((function (numerics-big-values
-                             run (append (mapcar #'second integrals) (mapcar #'third integrals))
+                             run (append (mapcar #'forms-first-integral-value integrals)
+                                         (mapcar #'forms-first-integral-size integrals))
                              (+ digits 5))))
               (numerics-big-drifts (loop for row in (cdr rows)
                                          collect (mapcar #'core-bigfloat-rational

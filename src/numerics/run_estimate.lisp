@@ -1,14 +1,15 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a run can be asked for beside its rows: an estimate of their error, the distance to a second
-;;; run at a finer tolerance or step, and the floor below which no run on double-float numbers comes
-;;; but by luck (conditioning.lisp). See numerics-error-fields first.
+;;; What a run can be asked for beside its rows: an estimate of their error, the distance to a
+;;; second run at a finer tolerance or step, and the floor below which no run on double-float
+;;; numbers comes but by luck (conditioning.lisp). See numerics-error-fields first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/conditioning"
+  (core-require "algebra/program_record" "numerics/conditioning"
                 "numerics/decimals" "numerics/native" "numerics/observers" "numerics/problem"
-                "numerics/run" "numerics/run_course" "numerics/run_options" "numerics/step_control"))
+                "numerics/run" "numerics/run_course" "numerics/run_options"
+                "numerics/step_control"))
 
 (defun numerics-asked-fields (run)
   "The fields of the report that the wishes of RUN ask for; RUN has come to its end."
@@ -36,28 +37,11 @@
 (defun numerics-other-run (run)
   "Two values: a run of the same, at a finer tolerance or step where there is one, and what it is."
   (multiple-value-bind (controls how) (numerics-other-controls run)
-    (let ((other (copy-numerics-simulation run)))
-      (setf (numerics-simulation-controls other) controls
-            (numerics-simulation-drifts other) nil
-            (numerics-simulation-outcome other) nil
-            (numerics-simulation-constraints other)
-            (numerics-fresh-constraints (numerics-simulation-constraints run))
-            (numerics-simulation-rows other)
-            (numerics-wished-rows other (aref (numerics-simulation-moment run) 0)
-                                  (numerics-controls-end controls))
-            (numerics-simulation-events other) (numerics-wished-events other))
-      (values other how))))
-
-(defun numerics-fresh-constraints (constraints)
-  "CONSTRAINTS as they were before a run, with the same places to work in."
-  (when constraints
-    (let ((copy (copy-numerics-constraints constraints)))
-      (setf (numerics-constraints-singular copy) nil (numerics-constraints-largest copy) 0d0)
-      copy)))
+    (values (numerics-run-again run controls (numerics-simulation-wishes run)) how)))
 
 (defun numerics-other-controls (run)
-  "A step is halved: it may be the only one. The tolerance of a method with one step stays, since the
-order follows from it."
+  "A step is halved: it may be the only one. The tolerance of a method with one step stays, since
+the order follows from it."
   (let* ((controls (numerics-simulation-controls run))
          (relative (numerics-controls-relative controls))
          (finest (max *numerics-least-tolerance* (/ relative 100)))
@@ -75,10 +59,6 @@ order follows from it."
                 (format nil "~:[~;at most about the ~]distance to a run at a tolerance of ~a"
                         (> factor 1)
                         (numerics-short-number (* factor relative)))))))
-
-(defun numerics-row-state (rows k)
-  (let ((place (* k (numerics-rows-width rows))))
-    (subseq (numerics-rows-numbers rows) (1+ place) (+ place (numerics-rows-width rows)))))
 
 (defun numerics-rows-distance (run other)
   "The largest distance of rows of RUN and OTHER at the same time, and of their ends."

@@ -109,13 +109,23 @@ methods with a fixed one, or 0; ESTIMATE and CONDITIONING: whether these are wan
       (core-error "an absolute tolerance is greater than 0"))
     list))
 
+;;; The length of the first step, of methods with a fixed one of all; 0: they choose it
+
+(defun numerics-read-first-step (step)
+  (unless (eql step 0)
+    (let ((length (numerics-double step "first_step")))
+      (unless (plusp length)
+        (core-error "first_step is the length of a step, greater than 0; found ~a"
+                    (core-words (list step))))
+      length)))
+
 ;;; The start: values of the states, names in the order NAMES
 
 (defun numerics-velocity-p (name) (and (consp name) (eq (caar name) '%derivative)))
 
 (defun numerics-read-start (start names default)
-  "The list of exact start values of NAMES from the equations START; DEFAULT, a function of the name,
-gives those that are not named."
+  "The list of exact start values of NAMES from the equations START; DEFAULT, a function of the
+name, gives those that are not named."
   (dolist (equation (numerics-items start))
     (unless (and (consp equation) (eq (caar equation) 'mequal))
       (core-error "the start is a list such as [theta = 1, 'diff(theta,t) = 0], found ~a"

@@ -1,14 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a run says of itself beside its rows: how it ended, what it cost, how far its integrals drift
-;;; and its constraints are off; and the warning where a drift is out of proportion. See
+;;; What a run says of itself beside its rows: how it ended, what it cost, how far its integrals
+;;; drift and its constraints are off; and the warning where a drift is out of proportion. See
 ;;; numerics-report first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "numerics/back_to_constraints" "numerics/decimals"
-                "numerics/drifts" "numerics/events" "numerics/problem" "numerics/run"
-                "numerics/run_options"))
+  (core-require "algebra/program_record" "forms/rates" "numerics/back_to_constraints"
+                "numerics/decimals" "numerics/drifts" "numerics/events" "numerics/problem"
+                "numerics/run" "numerics/run_options"))
 
 (defun numerics-rounded-seconds (seconds)
   "SECONDS to the microsecond."
@@ -64,16 +64,40 @@ asked for."
                                      collect (algebra-field name (numerics-few-digits drift))))))
    (when (numerics-simulation-untold run)
      (list (algebra-field '$untold (cons '(mlist simp) (numerics-simulation-untold run)))))
+   (numerics-loss-fields run)
    (when (numerics-simulation-constraints run)
      (list (algebra-field '$residual (numerics-few-digits
                                       (numerics-constraints-largest
                                        (numerics-simulation-constraints run))))))))
 
+(defparameter *numerics-notable-share* 1d-3 "Of a pivot: three digits are lost where it is less.")
+
+(defun numerics-loss-fields (run)
+  "loss = [name = what is left of 1 of its pivot at worst, ..], where that is little."
+  (let ((losses (loop for (name) in (forms-rates-guards (numerics-simulation-rates run))
+                      for share across (or (numerics-simulation-shares run) (vector))
+                      when (< share *numerics-notable-share*)
+                        collect (algebra-field name (numerics-few-digits share)))))
+    (when losses (list (algebra-field '$loss (cons '(mlist simp) losses))))))
+
 (defun numerics-remark-fields (run)
-  (let ((outcome (numerics-simulation-outcome run)))
+  (let* ((outcome (numerics-simulation-outcome run))
+         (about (remove nil (list (and outcome (numerics-outcome-about outcome))
+                                  (numerics-suggestion run)))))
     (append (numerics-event-fields run)
-            (when (and outcome (numerics-outcome-about outcome))
-              (list (algebra-field '$about (numerics-outcome-about outcome)))))))
+            (when about (list (algebra-field '$about (format nil "~{~a~^; ~}" about)))))))
+
+(defparameter *numerics-long-run* 1000 "Steps of an explicit method.")
+
+(defun numerics-suggestion (run)
+  "A sentence where RUN is long and conservative and never stiff; nil elsewhere."
+  (let ((counts (numerics-controls-counts (numerics-simulation-controls run))))
+    (when (and (member (numerics-wishes-method (numerics-simulation-wishes run)) '($auto $dop853))
+               (> (numerics-counts-steps counts) *numerics-long-run*)
+               (= (numerics-counts-factorisations counts) 0)
+               (intersection (numerics-simulation-drifting run) (mapcar #'core-symbol
+                                                                        '("energy" "H"))))
+      "the energy is constant and the run is long: method = gauss would keep it over any time")))
 
 (defun numerics-event-fields (run)
   "events = [[t, number of the event, 1 upwards, -1 downwards, 0 where it touches 0], ..]"
@@ -106,3 +130,8 @@ asked for."
                 "~a, which is constant, drifts by ~a of its size, at a tolerance of ~a"
                 (numerics-name-text name) (numerics-short-number drift)
                 (numerics-short-number relative))))))
+
+(defun numerics-warn-of-events (run)
+  (let ((events (numerics-simulation-events run)))
+    (when (and events (numerics-events-vague events))
+      (core-warn-later "the events change too fast along the steps: some zeros may be missing"))))

@@ -1,15 +1,17 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Simulate: the rows [t, x1, .., xn] of a run, the last one where it ended, and what is told of it:
-;;; the method, its steps and evaluations, seconds. A run that does not reach its end is an error that
-;;; says where and why; its rows so far are kept as a part. Look first at $numerics_simulate.
+;;; Simulate: the rows [t, x1, .., xn] of a run, the last one where it ended, and what is told of
+;;; it: the method, its steps and evaluations, seconds. A run that does not reach its end is an
+;;; error that says where and why; its rows so far are kept as a part. Look first at
+;;; $numerics_simulate.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "forms/rates"
                 "numerics/decimals" "numerics/events" "numerics/observers" "numerics/problem"
-                "numerics/rate_program" "numerics/routine" "numerics/run" "numerics/run_course"
-                "numerics/run_estimate" "numerics/run_integrals" "numerics/run_options"
+                "numerics/routine" "numerics/run" "numerics/run_course"
+                "numerics/run_estimate" "numerics/run_integrals" "numerics/run_of_rates"
+                "numerics/run_options"
                 "numerics/run_report"))
 
 ;;; What is told
@@ -39,6 +41,7 @@
          (asked (unless (or stop trouble) (numerics-asked-fields run))))
     (numerics-tell-end run stop trouble)
     (numerics-warn-of-drifts run)
+    (numerics-warn-of-events run)
     (core-report "run" (numerics-report
                         run
                         (numerics-course-fields run (numerics-status-words run stop trouble))
@@ -83,10 +86,6 @@ clock of these showed COMPILED."
     (numerics-check-digits wishes)
     t))
 
-(defun numerics-mass-wanted (wishes)
-  "How far M is divided out: Radau's method takes it as it is."
-  (if (eq (numerics-wishes-method wishes) '$radau) nil :regular))
-
 (defun numerics-rows-of-run (run began compiled)
   "Makes RUN; its rows, as a Maxima list."
   (numerics-watch-integrals run)
@@ -101,12 +100,9 @@ clock of these showed COMPILED."
   "The rows of RATES with VALUES, equations name = number, from START over SPAN as the WISHES say;
 BEGAN is the time when their derivation began."
   (with-algebra-program
-    (let* ((compiled *numerics-compile-seconds*) (long (numerics-long-p wishes))
-           (pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
-           (rates (numerics-with-quadratures
-                   (numerics-run-rates rates pairs (numerics-mass-wanted wishes)) start))
-           (exact (numerics-start-values rates start values))
-           (run (numerics-new-run rates pairs exact span wishes)))
-      (if long
-          (numerics-long-rows run exact span began)
-          (numerics-rows-of-run run began compiled)))))
+    (let ((compiled *numerics-compile-seconds*) (long (numerics-long-p wishes)))
+      (multiple-value-bind (run exact)
+          (numerics-settled-run rates values start span wishes)
+        (if long
+            (numerics-long-rows run exact span began)
+            (numerics-rows-of-run run began compiled))))))

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Small full systems: rows are scaled by their largest entry, then eliminated with partial pivoting
-;;; (Golub & Van Loan: Matrix Computations, section 3.4). And which rows of a matrix follow from those
-;;; before them, by modified Gram-Schmidt (section 5.2).
+;;; Small full systems: rows are scaled by their largest entry, then eliminated with partial
+;;; pivoting (Golub & Van Loan: Matrix Computations, section 3.4). And which rows of a matrix follow
+;;; from those before them, by modified Gram-Schmidt (section 5.2).
 
 (in-package :maxima)
 
@@ -18,7 +18,8 @@
   (make-numerics-small-system :entries (numerics-zeros (* most most)) :right (numerics-zeros most)))
 
 (defun numerics-set-products (system rows columns size kept)
-  "SYSTEM becomes ROWS times COLUMNS, both vectors of SIZE after vectors of SIZE, those that are KEPT."
+  "SYSTEM becomes ROWS times COLUMNS, both vectors of SIZE after vectors of SIZE, those that are
+KEPT."
   (declare (type numerics-vector rows columns) (fixnum size))
   (let ((order (length kept)) (entries (numerics-small-system-entries system)))
     (setf (numerics-small-system-order system) order)

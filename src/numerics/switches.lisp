@@ -1,16 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Jumps and corners of a right-hand side X: where the argument of a sign or of an absolute value
-;;; vanishes. The error of a step that goes over one is not what its estimate says: a short pulse may
-;;; lie between all stages. So where an argument vanishes within a step, what the step adds to the
-;;; state is compared with the integral of X along it, from zero to zero; where they differ by more
-;;; than the tolerance, the step is cut to end shortly before the first zero, and one so short that
-;;; nothing in it counts leads to the other side. A motion that comes back again and again has no
-;;; solution in the ordinary sense. See numerics-inspect-switches first.
+;;; vanishes. The error of a step that goes over one is not what its estimate says: a short pulse
+;;; may lie between all stages. So where an argument vanishes within a step, what the step adds to
+;;; the state is compared with the integral of X along it, from zero to zero; where they differ by
+;;; more than the tolerance, the step is cut to end shortly before the first zero, and one so short
+;;; that nothing in it counts leads to the other side. A motion that comes back again and again has
+;;; no solution in the ordinary sense. See numerics-inspect-switches first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
                 "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
                 "numerics/problem" "numerics/program" "numerics/routine" "numerics/sparse"
                 "numerics/step_control"))
@@ -25,6 +25,15 @@
                       (member (algebra-node-operation argument) '(:sign :absolute)))
             (pushnew argument found)))))))
 
+(defun numerics-jumps-of-states (program)
+  "The arguments of signs in PROGRAM's rates that depend on states: where they vanish X may jump."
+  (with-numerics-program program
+    (loop for node in (algebra-live-nodes (numerics-program-rates program))
+          when (and (eq (algebra-node-operation node) :sign)
+                    (intersection (algebra-inputs-of (list (algebra-node-left node)))
+                                  (numerics-program-names program) :test #'algebra-same-name-p))
+            collect (algebra-node-left node))))
+
 (defstruct numerics-switches
   elements events rates mass timed                    ; the last three of the problem
   scales relative end                                 ; those of the controls
@@ -38,8 +47,8 @@
 (defparameter *numerics-quadrature-nodes* 5)
 
 (defun numerics-new-switches (program problem controls)
-  "What looks for jumps and corners of the right-hand side of PROBLEM, which PROGRAM poses; nil where
-there are none."
+  "What looks for jumps and corners of the right-hand side of PROBLEM, which PROGRAM poses; nil
+where there are none."
   (with-numerics-program program
     (let ((elements (numerics-switch-elements (numerics-program-rates program)))
           (n (length (numerics-program-names program))))
@@ -62,25 +71,28 @@ there are none."
 (defun numerics-switch-zeros (switches step)
   "Where arguments vanish within STEP, (share place) in order."
   (let* ((events (numerics-switches-events switches))
-         (zeros (progn (numerics-sample-events events step)
-                       (numerics-begin-events events step)
-                       (loop for (share place) in (numerics-wanted-zeros events step)
+         (zeros (progn (setf (numerics-events-sides events) nil)
+                       (loop for (share place) in (numerics-zeros-of-step events step)
                              unless (= share 0d0) collect (list share place)))))
+    (numerics-sample-events events step)
     (sort (append zeros (loop for (share) in zeros
                               append (numerics-zeros-about events step share)))
           #'< :key #'first)))
 
 (defun numerics-zeros-about (events step share)
   "Zeros on both sides of SHARE, where one argument vanishes, of others whose sign there is neither
-that of the sample before nor of the one after: one may be a function of the absolute value of another."
-  (let* ((k (min 15 (floor (* 16 share)))) (values (copy-seq (numerics-events-at events step share))))
+that of the sample before nor of the one after: one may be a function of the absolute value of
+another."
+  (let* ((k (min 15 (floor (* 16 share))))
+         (values (copy-seq (numerics-events-at events step share))))
     (loop for place below (numerics-events-count events)
           for side = (numerics-side (aref values place))
           for before = (numerics-side (numerics-sample events place k))
           when (and (/= side 0) (= before (- side))
                     (= before (numerics-side (numerics-sample events place (1+ k)))))
-            append (list (list (numerics-crossing events step place (/ k 16d0) share) place)
-                         (list (numerics-crossing events step place share (/ (1+ k) 16d0)) place)))))
+            append (loop for (from to) in (list (list (/ k 16d0) share)
+                                                (list share (/ (1+ k) 16d0)))
+                         collect (list (numerics-crossing events step place from to) place)))))
 
 (defun numerics-step-state (switches step share)
   (let ((state (numerics-switches-state switches)))
@@ -141,16 +153,21 @@ that of the sample before nor of the one after: one may be a function of the abs
 
 (defparameter *numerics-most-missed* 2d0 "Of the tolerance, in a step over a jump or a corner.")
 
-(defun numerics-inspect-switches (switches step)
+(defun numerics-inspect-switches (switches step guessed)
   "nil where STEP may stand; else the share of it that may, and whether that goes over a zero; or a
-sentence where no solution goes on."
+sentence where no solution goes on. Of a step that was only GUESSED all this counts where X follows
+it to the first zero."
   (let ((zeros (numerics-switch-zeros switches step)))
-    (when zeros
+    (when (and zeros (or (not guessed)
+                         (< (numerics-missed switches step 0d0 (first (first zeros))) 1d0)))
       (let ((missed (numerics-missed-in-all switches step zeros)))
-        (when (> missed *numerics-most-missed*)
-          (numerics-cut-share switches step (first zeros)
-                              (max (/ 0.1d0 missed)
-                                   (numerics-shortest-share switches step))))))))
+        (destructuring-bind (share place) (first zeros)
+          (if (> missed *numerics-most-missed*)
+              (let ((short (max (/ 0.1d0 missed) (numerics-shortest-share switches step))))
+                (if (and guessed (> share short))
+                    (values (- share (* 0.5d0 short)) nil)
+                    (numerics-cut-share switches step (first zeros) short)))
+              (and (not guessed) (numerics-turned-back switches step share place))))))))
 
 (defun numerics-shortest-share (switches step)
   "Of STEP, that a method makes."
@@ -158,7 +175,8 @@ sentence where no solution goes on."
      (abs (numerics-step-length step))))
 
 (defun numerics-cut-share (switches step zero short)
-  "To half of SHORT before the ZERO, or over it by a step so short that what it misses is no matter."
+  "To half of SHORT before the ZERO, or over it by a step so short that what it misses is no
+matter."
   (destructuring-bind (share place) zero
     (cond ((numerics-turned-back switches step share place))
           ((> share short) (values (- share (* 0.5d0 short)) nil))
@@ -229,8 +247,8 @@ divided out nothing is said.)"
 (defparameter *numerics-worst-missed* 100d0 "Of the tolerance, in a step that stands.")
 
 (defun numerics-switch-part (switches found)
-  "A part of an observer that calls FOUND with a phrase and ends the run before a step that misses far
-more than the tolerance, or beyond which no solution goes on."
+  "A part of an observer that calls FOUND with a phrase and ends the run before a step that misses
+far more than the tolerance, or beyond which no solution goes on."
   (lambda (step)
     (let* ((zeros (numerics-switch-zeros switches step))
            (trouble (and zeros (numerics-switch-trouble switches step zeros))))

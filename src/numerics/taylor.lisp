@@ -27,7 +27,7 @@ constants such as %pi/2. An outcome with rows."
                  (return (numerics-taylor-accepted older newer agreement times digits)))
                (incf extra (numerics-taylor-more-digits newer agreement digits))
                (setq older newer))
-          finally (return (numerics-taylor-refused older digits)))))
+          finally (return (numerics-taylor-refused older (first times) digits)))))
 
 (defun numerics-taylor-more-digits (run agreement digits)
   "For the next run: far more where small numbers may have become 0."
@@ -89,9 +89,11 @@ ended differently."
                 (numerics-taylor-run-about newer)
                 (numerics-taylor-words older newer agreement)))))
 
-(defun numerics-taylor-refused (run digits)
+(defun numerics-taylor-refused (run start digits)
   (make-numerics-taylor-outcome
-   :status :no-convergence :moment (numerics-moment 0d0)
+   :status :no-convergence
+   :moment (let ((bits (numerics-taylor-bits run)))
+             (numerics-moment (numerics-double-of-fixed (numerics-fixed start bits) bits)))
    :about (format nil "no two runs agree to ~d digits, the last one of order ~d" digits
                   (numerics-expansion-order (numerics-taylor-run-expansion run)))))
 

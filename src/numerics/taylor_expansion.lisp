@@ -18,7 +18,7 @@
   rates          ; series of X
   solve          ; nil, or the function of a list of X_k: that of M^-1 X_k
   rules          ; of the nodes that move, in their order
-  corners        ; (y . x): no solution goes past y = 0 where x is nil, or negative
+  corners        ; (text y . x): series say nothing of what is past y = 0 where x is nil, or negative
   (series (make-hash-table))                 ; index of a node -> its series
   (partners (make-hash-table :test #'equal))) ; (operation part) -> series beside that of a node
 
@@ -95,14 +95,25 @@
       (:multiply (list (if (numberp left)
                            (numerics-multiple-rule out left y bits)
                            (numerics-product-rule out x y bits))))
-      (:divide (list (numerics-quotient-rule out x y bits)))
-      (:root (list (numerics-root-rule out x bits)))
+      (:divide (numerics-note-corner expansion "a division by zero" y)
+               (list (numerics-quotient-rule out x y bits)))
+      (:root (numerics-note-corner expansion "the square root of 0" x)
+             (list (numerics-root-rule out x bits)))
       (:power (numerics-general-power-rules out x second y expansion))
       (:polar-angle (numerics-polar-angle-rules out x y expansion))
       ((:absolute :sign) (numerics-corner-rules operation out x expansion))
       ((:sine :cosine :hyperbolic-sine :hyperbolic-cosine)
        (numerics-pair-rules operation out x (algebra-part-key left) expansion))
       (t (numerics-function-rules operation out x expansion)))))
+
+;;; The series of a function may go on smoothly past a place where the function itself does not: sqrt
+;;; of a square that passes 0, asin(sin(t)) past %pi/2, exp(-1/t^2), all of whose terms vanish at 0.
+
+(defun numerics-note-corner (expansion text y &optional x)
+  "No step goes past a zero of the series Y where the series X, if there is one, is negative; TEXT
+says what is there."
+  (unless (find y (numerics-expansion-corners expansion) :key #'second)
+    (push (list* text y x) (numerics-expansion-corners expansion))))
 
 ;;; Functions of one argument: first the rules of series that they need beside their own.
 
@@ -133,13 +144,15 @@
                 (numerics-derivative-rule derivative x))
             (ecase operation
               (:exponential (list (numerics-integral-rule out derivative out bits #'first)))
-              (:logarithm (list (numerics-logarithm-rule out derivative x bits)))
+              (:logarithm (numerics-note-corner expansion "the logarithm of 0" x)
+                          (list (numerics-logarithm-rule out derivative x bits)))
               (:hyperbolic-tangent (cons (numerics-integral-rule out derivative inner bits #'first)
                                          (one-less-square out)))
               (:arctangent (list (numerics-product-rule factor x x bits)
                                  (numerics-constant-term-rule factor (ash 1 bits))
                                  (numerics-inverse-rule out derivative factor bits #'first)))
               ((:arcsine :arccosine)
+               (numerics-note-corner expansion "an end of an arc" inner)
                (append (one-less-square x)
                        (list (numerics-root-rule factor inner bits)
                              (numerics-inverse-rule out derivative factor bits #'first)))))))))
@@ -147,6 +160,7 @@
 (defun numerics-general-power-rules (out x exponent y expansion)
   "X to a rational power EXPONENT, else exp(y log x)."
   (let ((bits (numerics-expansion-bits expansion)))
+    (numerics-note-corner expansion "a broken power of 0" x)
     (if (numberp exponent)
         (list (numerics-power-rule out x exponent bits))
         (let ((logarithm (numerics-new-series expansion))
@@ -159,7 +173,7 @@
   "out' (x^2 + y^2) = x y' - y x'"
   (let ((bits (numerics-expansion-bits expansion)) (square (numerics-new-series expansion))
         (other (numerics-new-series expansion)) (numerator (numerics-new-series expansion)))
-    (push (cons y x) (numerics-expansion-corners expansion))
+    (numerics-note-corner expansion "a jump of an angle" y x)
     (list (numerics-product-rule square x x bits)
           (numerics-product-rule other y y bits)
           (numerics-sum-rule square square other)
@@ -172,7 +186,7 @@
 (defun numerics-corner-rules (operation out x expansion)
   "|x| and the sign of x, on one side of x = 0."
   (let ((one (ash 1 (numerics-expansion-bits expansion))))
-    (push (list x) (numerics-expansion-corners expansion))
+    (numerics-note-corner expansion "a corner of an absolute value" x)
     (list (lambda (k)
             (when (zerop (svref x 0)) (numerics-series-fault "a corner of an absolute value"))
             (setf (svref out k)

@@ -43,7 +43,7 @@
   (core-bigfloat (/ x (ash 1 bits)) digits))
 
 (defun numerics-double-of-fixed (x bits)
-  (numerics-rounded (/ x (ash 1 bits))))
+  (numerics-small-double (/ x (ash 1 bits))))
 
 ;;; Functions. A fault ends the step; it is a text that completes "at t = .. there is".
 
@@ -53,7 +53,8 @@
   "How many bits X has before its point."
   (max 0 (- (integer-length x) bits)))
 
-(defparameter *numerics-most-whole-bits* 12 "Of exponents: exp(2^12) has 1779 digits before its point.")
+(defparameter *numerics-most-whole-bits* 12
+  "Of exponents: exp(2^12) has 1779 digits before its point.")
 
 (defun numerics-extra-bits (operation bits x y)
   "How many more bits than BITS the value of OPERATION takes."

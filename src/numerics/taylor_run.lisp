@@ -84,7 +84,8 @@
 
 (defun numerics-taylor-fitting-step (run scale)
   "Two values: the longest step, with its sign, that the series allow, and their scale: SCALE or a
-shorter one where the step is far shorter, a longer one where the coefficients are lost in rounding."
+shorter one where the step is far shorter, a longer one where the coefficients are lost in
+rounding."
   (let ((may-grow t) (left (numerics-taylor-left run)))
     (loop
       (multiple-value-bind (step vague) (numerics-taylor-step-of-scale run scale)
@@ -109,8 +110,8 @@ small to tell."
 
 (defun numerics-taylor-radius (run)
   "The binary logarithm of the radius of convergence in units of the scale: the least of
-(|x_i| + s_i)/|c_k| to the power 1/k for the last half of the coefficients c_k of each state. Second,
-how many binary digits that coefficient has."
+(|x_i| + s_i)/|c_k| to the power 1/k for the last half of the coefficients c_k of each state.
+Second, how many binary digits that coefficient has."
   (let* ((expansion (numerics-taylor-run-expansion run)) (least nil) (digits 0)
          (order (numerics-expansion-order expansion)))
     (loop for series in (numerics-expansion-states expansion)
@@ -132,11 +133,11 @@ how many binary digits that coefficient has."
                       for power = share then (ash (* power share) (- bits))
                       for k from 1 below (numerics-expansion-order expansion)
                       sum (ash (* power (abs (svref series k))) (- bits))))))
-      (loop for (y . x) in (numerics-expansion-corners expansion)
+      (loop for (text y . x) in (numerics-expansion-corners expansion)
             do (loop until (or (free-p y) (and x (plusp (svref x 0)) (free-p x)))
                      do (setq step (round step 2))
                         (when (numerics-taylor-too-short-p run step)
-                          (numerics-series-fault "a corner of an absolute value or an angle"))))
+                          (numerics-series-fault text))))
       step)))
 
 (defun numerics-taylor-too-short-p (run step)

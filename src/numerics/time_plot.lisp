@@ -17,7 +17,7 @@
 (defun numerics-read-plot (plot)
   "The expressions of the option PLOT, one or a list of them."
   (let ((expressions (or (numerics-items plot) (list plot))))
-    (when (or (find t expressions) (find nil expressions)
+    (when (or (find t expressions) (find nil expressions) (some #'stringp expressions)
               (some (lambda (e) (and (consp e) (member (caar e) '(mequal mlist)))) expressions))
       (core-error "plot is a list of states or of expressions in them, such as [x, x^2 + y^2]; ~
                    found ~a" (core-words (list plot))))
@@ -47,10 +47,10 @@
                                                  (numerics-items row))
         (numerics-with-masked-traps
           (funcall (numerics-curves-routine curves) (numerics-moment time)
-                   (coerce state 'numerics-vector) out))
-        (dotimes (k count)
-          (when (numerics-finite-p (aref out k))
-            (push (list time (aref out k)) (aref places k))))))))
+                   (coerce state 'numerics-vector) out)
+          (dotimes (k count)
+            (when (numerics-finite-p (aref out k))
+              (push (list time (aref out k)) (aref places k)))))))))
 
 (defparameter *numerics-colours*
   '("#4477aa" "#cc3311" "#228833" "#aa3377" "#ee7733" "#009988" "#bbaa00" "#555555"))
@@ -75,13 +75,22 @@
                        (numerics-option '$key (numerics-doubled-quotes (core-cut label)))
                        (numerics-points places))))
 
+(defun numerics-check-curves (labels places)
+  "A line where one of LABELS has no PLACES; an error where none has."
+  (let ((empty (loop for label in labels for curve in places unless curve collect label)))
+    (when empty
+      (funcall (if (some #'identity places) #'core-warn #'core-error)
+               "~{~a~^, ~} ha~:[s~;ve~] no value at any row: there is nothing to draw"
+               empty (cdr empty)))))
+
 (defun $numerics_time_plot (picture curves rows)
   "Draws CURVES from ROWS, and gives these."
   (let ((labels (numerics-curves-labels curves))
         (places (numerics-curve-places curves (numerics-items rows))))
+    (numerics-check-curves labels places)
     (numerics-draw picture
-                   (numerics-preamble "t" (if (cdr labels) "" (first labels)))
-                   (append (list (numerics-option '$points_joined t)
+                   (append (list (numerics-preamble "t" (if (cdr labels) "" (first labels)))
+                                 (numerics-option '$points_joined t)
                                  (numerics-option '$point_size 0)
                                  (numerics-option '$line_width 1.5d0))
                            (numerics-value-range (apply #'append places))

@@ -1,15 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Trajectories that fill a window, inside masked traps: from seeds far from all others, forwards and
-;;; backwards in time, to where they leave the window, close, come to rest or wind on themselves.
-;;; Places are in units of the window, from 0 to 1 along each axis; a curve is a list of places (u v),
-;;; close enough to look smooth. Look first at numerics-fill-window.
+;;; Trajectories that fill a window, inside masked traps: from seeds far from all others, forwards
+;;; and backwards in time, to where they leave the window, close, come to rest or wind on
+;;; themselves. Places are in units of the window, from 0 to 1 along each axis; a curve is a list of
+;;; places (u v), close enough to look smooth. Look first at numerics-fill-window.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/automatic" "numerics/plane" "numerics/problem"))
 
-(defparameter *numerics-curve-length* 30d0 "Windows that a trajectory winds through in one direction.")
+(defparameter *numerics-curve-length* 30d0
+  "Windows that a trajectory winds through in one direction.")
 (defparameter *numerics-curve-spacing* 0.006d0 "Of the points of a curve.")
 (defparameter *numerics-curve-margin* 0.02d0 "How far beyond the window a curve goes.")
 (defparameter *numerics-curve-steps* 20000)
@@ -68,7 +69,8 @@
         ((> (numerics-trace-length trace) *numerics-curve-length*) :long)))
 
 (defun numerics-crowded-p (trace from to)
-  "Whether the curve of TRACE has been near TO before, in the same direction; notes that it is there."
+  "Whether the curve of TRACE has been near TO before, in the same direction; notes that it is
+there."
   (when (> (numerics-trace-length trace) (* 3 *numerics-crowded*))
     (let* ((cell (mapcar (lambda (u) (floor u *numerics-crowded*)) to))
            (du (* (numerics-trace-sense trace) (- (first to) (first from))))

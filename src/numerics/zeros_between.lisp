@@ -47,7 +47,7 @@ FUNCTION leaves the sign that it has at FROM."
   (let* ((golden (/ (- (sqrt 5d0) 1) 2))
          (x (- to (* golden (- to from)))) (y (+ from (* golden (- to from))))
          (fx (funcall function x)) (fy (funcall function y)))
-    (loop repeat 45
+    (loop repeat 75
           until (<= (min fx fy) 0)
           do (if (< fx fy)
                  (setq to y y x fy fx

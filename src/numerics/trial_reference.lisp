@@ -1,0 +1,77 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; The reference of a trial at its 101 points, and how well double-float numbers can know its end.
+;;; Constraints are held in the reference as they are in runs: series are taken only where the start
+;;; holds them to all digits. Look first at $numerics_reference_solution.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/program_record" "numerics/automatic" "numerics/back_to_constraints"
+                "numerics/conditioning" "numerics/decimals" "numerics/native"
+                "numerics/problem" "numerics/program" "numerics/reference" "numerics/run"
+                "numerics/run_course" "numerics/run_digits" "numerics/trial"))
+
+(defun numerics-series-begin-p (run start time)
+  "Whether START holds the constraints of RUN to the digits of series."
+  (let ((residual (numerics-start-residual run start time *numerics-series-digits*)))
+    (or (null residual) (<= residual (expt 10 (- *numerics-series-digits*))))))
+
+(defun numerics-reference-of-trial (trial)
+  (let ((run (numerics-run-of-trial trial '$radau 1d-8 *numerics-trial-points*))
+        (start (numerics-trial-start trial))
+        (times (numerics-exact-times *numerics-trial-points* (numerics-trial-ends trial))))
+    (with-numerics-program (numerics-simulation-program run)
+      (numerics-run-switch-part run)
+      (numerics-with-masked-traps
+        (numerics-reference-of
+         (numerics-simulation-problem run) (numerics-simulation-controls run) start times
+         :most-steps (if (numerics-series-begin-p run start (first times))
+                         *numerics-most-series-steps*
+                         0)
+         :projection (and (numerics-simulation-constraints run)
+                          (numerics-projection-part (numerics-simulation-constraints run))))))))
+
+(defun $numerics_reference_solution (trial)
+  "Record: method, digits, errors of each state, rows [t, x1, ..]; one that its time did not suffice
+for is a part."
+  (core-progress "making a reference")
+  (multiple-value-bind (reference stop)
+      (core-within *numerics-share-of-reference* (lambda () (numerics-reference-of-trial trial)))
+    (when stop (core-report "partial" t))
+    (unless reference
+      (setq reference (make-numerics-reference :method "no reference: its time was up")))
+    (unless (numerics-reference-rows reference)
+      (core-warn "~a" (numerics-reference-method reference)))
+    (numerics-reference-record reference)))
+
+(defparameter *numerics-share-of-reference* 1/2 "Of the time that a call has left.")
+
+(defun numerics-reference-record (reference)
+  (let ((digits (numerics-reference-digits reference)))
+    (flet ((list-of (items) (cons '(mlist simp) items)))
+      (algebra-list
+       (algebra-field '$method (numerics-reference-method reference))
+       (algebra-field '$digits (and digits (numerics-few-digits (coerce digits 'double-float))))
+       (algebra-field '$errors (list-of (map 'list #'numerics-few-digits
+                                             (numerics-reference-errors reference))))
+       (algebra-field '$rows (list-of (mapcar #'list-of (numerics-reference-rows reference))))))))
+
+(defun numerics-read-reference (record)
+  "The reference that RECORD describes."
+  (flet ((items (key) (cdr ($core_get record key))))
+    (make-numerics-reference
+     :method ($core_get record '$method) :digits ($core_get record '$digits)
+     :errors (map 'numerics-vector #'numerics-double-of-exact (items '$errors))
+     :rows (mapcar (lambda (row) (mapcar #'numerics-double-of-exact (cdr row))) (items '$rows)))))
+
+(defun numerics-trial-conditioning (trial)
+  "The floor of double-float numbers at the end of TRIAL; nil where a run did not reach it in time."
+  (let ((run (numerics-trial-run trial)))
+    (core-progress "computing the conditioning")
+    (numerics-within-share
+     (lambda ()
+       (numerics-with-masked-traps
+         (values (numerics-conditioning #'numerics-automatic (numerics-simulation-problem run)
+                                        (numerics-simulation-controls run)
+                                        (numerics-simulation-moment run)
+                                        (numerics-simulation-state run))))))))
