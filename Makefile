@@ -24,7 +24,7 @@ bench-peers:
 bench-numerics:
 	@bench/numerics/run
 
-# Verdicts on stability by doubles, by bigfloats and exactly, beside the truth: a page and a plot. Three minutes.
+# Verdicts on stability by doubles, bigfloats and exactly, beside the truth: a page and a plot. Three minutes.
 bench-verdicts:
 	@bench/verdicts/run
 
