@@ -6,8 +6,7 @@
 ;;; format's control without arguments. The default is text as it would stand in the archive; nil
 ;;; where the key may be absent; :required; (:when key value) required if that key has that value;
 ;;; (:unless key text) required if that is absent, else of the default text or nil; (:with key
-;;; text) a
-;;; default that makes sense beside that key only.
+;;; text) a default that makes sense beside that key only.
 
 (in-package :maxima)
 
