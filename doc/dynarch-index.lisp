@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 3988449254 91880
+;;; Made by tools/doc; checksum of doc/*.texi: 1833256572 91949
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -51,10 +51,10 @@
 ("LinearIntegrals" . ("dynarch.info" 72534 654 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 73189 702 "Definitions for Analysis"))
 ("Simulate" . ("dynarch.info" 74170 5640 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 79811 3473 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 83285 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 85248 4475 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 89724 3304 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 79811 3547 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 83359 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 85322 4475 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 89798 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -64,6 +64,6 @@
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 7926))
 ("Definitions for Analysis" . ("dynarch.info" 47581 26310))
-("Definitions for Numerics" . ("dynarch.info" 74026 19002))
+("Definitions for Numerics" . ("dynarch.info" 74026 19076))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

@@ -146,7 +146,7 @@ steps; for others a part of an observer, or nil."
 interrupted it, and whether it was the latter. WITHIN calls a function within a time, as
 core-within."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
-         (began (numerics-seconds)) (compiled *numerics-compile-seconds*) (outcome nil))
+         (began (core-clock)) (compiled *numerics-compile-seconds*) (outcome nil))
     (setf (numerics-simulation-began run) (numerics-working-seconds))
     (multiple-value-bind (value stop)
         (funcall within
@@ -161,7 +161,7 @@ core-within."
       (when (eq value :interrupted)
         (setq stop (format nil "interrupted~@[ at ~a~]" *core-doing*)))
       (let ((compilation (- *numerics-compile-seconds* compiled)))
-        (setf (numerics-simulation-seconds run) (- (numerics-seconds) began compilation)
+        (setf (numerics-simulation-seconds run) (- (core-clock) began compilation)
               (numerics-simulation-compiled-on-the-way run) compilation
               (numerics-simulation-outcome run) outcome))
       (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))

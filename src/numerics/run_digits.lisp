@@ -126,7 +126,8 @@ without constraints."
                              maximize (abs (core-bigfloat-rational value))))))))
 
 (defun numerics-start-residual (run start time digits)
-  "What START, exact values, violates the constraints by, computed to more than DIGITS; nil without any."
+  "What START, exact values, violates the constraints by, computed to more than DIGITS; nil without
+any."
   (numerics-exact-residual run (list (numerics-big-start (cons time start) (+ digits 10)))
                            (+ digits 10)))
 
