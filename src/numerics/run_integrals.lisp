@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "forms/rates"
+  (core-require "algebra/program_nodes" "forms/program_judge" "forms/rates" "forms/value"
                 "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program"
                 "numerics/rate_program" "numerics/routine" "numerics/run" "numerics/run_options"))
 
@@ -41,7 +41,7 @@ these.")
 (defun numerics-settled-integral (integral)
   "INTEGRAL without a power that vanishes, or under the name of a balance."
   (destructuring-bind (name value size power) integral
-    (if (numerics-nought-p power)
+    (if (forms-nought-p (list power) (forms-new-point t))
         (list name value size 0)
         (list (core-symbol (format nil "~a_balance" (core-spelling name))) value size power))))
 
