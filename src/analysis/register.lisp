@@ -69,6 +69,9 @@
 (core-public "Equilibria"
   :forms '(("equations" "equations" "variables")) :options '("unknowns" "where")
   :kinds *analysis-kinds*)
+(core-rule "Equilibria" '("equations") "analysis/jumps" "analysis_smooth_equilibria"
+  "equations" *analysis-variables* *analysis-unknowns* *analysis-where*
+  *analysis-laws* *analysis-functions*)
 (core-rule "Equilibria" *analysis-states* "analysis/jumps" "analysis_smooth_equilibria"
   "state_equations" *analysis-variables* *analysis-unknowns* *analysis-where*
   *analysis-laws* *analysis-functions*)

@@ -162,16 +162,23 @@ open."
   (mapcar #'second (archive-lefts value)))
 
 (defun archive-check-equations (description)
-  (let ((variables (cdr ($core_get description '$variables)))
-        (rated (archive-derivative-names ($core_get description '$equations))))
+  "A variable without a rate belongs to an equation 0 = g."
+  (let* ((variables (cdr ($core_get description '$variables)))
+         (equations (cdr ($core_get description '$equations)))
+         (rated (archive-derivative-names
+                 (archive-list (remove 0 equations :key #'second)))))
     (flet ((fault (names text)
              (when names
                (core-fault "system" '$equations text
                            (mapcar #'core-spelling names)))))
       (fault (remove-if (lambda (x) (member x variables)) rated)
              "there are equations for ~{~a~^, ~}, not among the variables; add them there")
-      (fault (remove-if (lambda (x) (member x rated)) variables)
-             "there are no equations for ~{~a~^, ~}; a parameter is no variable"))))
+      (when (= (length rated) (length equations))
+        (fault (remove-if (lambda (x) (member x rated)) variables)
+               "there are no equations for ~{~a~^, ~}; a parameter is no variable"))
+      (unless (= (length equations) (length variables))
+        (core-fault "system" '$equations "there are ~d equations for ~d variables"
+                    (length equations) (length variables))))))
 
 (defun archive-check-coordinates (description)
   "A coordinate that occurs nowhere in what the equations are made of has the equation 0 = 0."

@@ -173,7 +173,7 @@
     ("multipliers" :names nil
      "names of the multipliers mu_j; mu0, mu1, ... unless given" "Names of the multipliers"))
   :agreement '("archive/names" archive-check-equations)
-  :gives '(("state_equations" "equations") ("known_integrals" "integrals")))
+  :gives '(("state_equations" "rated_equations") ("known_integrals" "integrals")))
 
 (core-kind "poisson" "Hamilton's function and the brackets of its variables"
   :first

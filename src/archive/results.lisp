@@ -143,8 +143,8 @@ can read them."
              (incf column (length text)))))
 
 (defun archive-row-p (value items)
-  "Whether VALUE, whose parts are ITEMS as text, is a row of a table: it begins with a number or a word,
-and nothing in it is named, or longer than a line."
+  "Whether VALUE, whose parts are ITEMS as text, is a row of a table: it begins with a number or a
+word, and nothing in it is named, or longer than a line."
   (and (atom (cadr value)) (notany #'archive-equation-p (cdr value))
        (notany (lambda (item) (find #\Newline item)) items)))
 

@@ -26,8 +26,7 @@
     (:expressions archive-as-expressions "a list of expressions")
     (:vector archive-as-vector "a list of three expressions")
     (:vanishing archive-as-vanishing "a list of equations, such as [x^2 + y^2 - l^2 = 0]")
-    (:rates archive-as-rates
-            "a list of equations solved for the velocities, such as [p' = q, q' = -p]")
+    (:rates archive-as-rates "a list such as [p' = q, q' = -p], or with algebraic 0 = p + q")
     (:field archive-as-field "none, constant or newton")
     (:sign archive-as-sign "passive or generator")
     (:parent archive-as-parent "0, the number of a body, or the name of a frame")
@@ -265,14 +264,14 @@ those who compute with it."
 ;; Lists of equations
 
 (defun archive-checked-equations (value check-left check-right)
-  "Equations of the list VALUE, both sides checked, no left side twice."
+  "Equations of the list VALUE, both sides checked, no left side twice but 0."
   (let ((equations (mapcar (lambda (item)
                              (unless (archive-equation-p item)
                                (archive-unfit "~a is not an equation" (archive-value-shown item)))
                              (archive-equation (funcall check-left (second item))
                                                (funcall check-right (third item))))
                            (archive-items value))))
-    (archive-check-distinct (mapcar #'second equations))
+    (archive-check-distinct (remove 0 (mapcar #'second equations)))
     (archive-list equations)))
 
 (defun archive-as-assignments (value)
@@ -305,7 +304,8 @@ those who compute with it."
       (archive-unfit "~a is not a velocity" (archive-value-shown value))))
 
 (defun archive-as-rates (value)
-  (archive-checked-equations value #'archive-a-velocity #'archive-an-expression))
+  (archive-checked-equations value (lambda (left) (if (eql left 0) 0 (archive-a-velocity left)))
+                             #'archive-an-expression))
 
 (defun archive-as-vanishing (value)
   "Equations e = 0; f = g is f - g = 0."

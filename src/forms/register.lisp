@@ -170,8 +170,9 @@
 (core-rule-same-as "rates" '("lagrangian") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("lagrangian") "hamilton_rates" :given '("function" $hamilton))
 (core-rule-same-as "rates" '("lagrangian") "hamilton_rates" :given "hamiltonian")
+(core-rule "rated_equations" '("equations") "forms/constraints" "forms_rated_equations" "equations")
 (core-middle "rates" '("equations") "forms/rates_of_systems" "forms_equation_rates"
-  "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) *forms-given-integrals*
+  "equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) *forms-given-integrals*
   '("level" ((mlist simp))))
 (core-middle "rates" '("poisson") "forms/rates_of_systems" "forms_equation_rates"
   "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) "poisson_integrals"

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; ErrorAgainstTime: for a system of one's own what each method reaches at each tolerance, and what it
-;;; costs; errors are those that were made, by a reference, never the tolerance (diagrams of work and
-;;; precision: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I, II.10).
-;;; Look first at $numerics_error_against_time.
+;;; ErrorAgainstTime: for a system of one's own what each method reaches at each tolerance, and what
+;;; it costs; errors are those that were made, by a reference, never the tolerance (diagrams of work
+;;; and precision: E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary Differential Equations I,
+;;; II.10). Look first at $numerics_error_against_time.
 
 (in-package :maxima)
 
@@ -70,8 +70,8 @@
                    (numerics-tolerance-text (numerics-attempt-tolerance failed)))))
 
 (defun numerics-attempts-by (contest method note)
-  "Measures METHOD at all tolerances, and calls NOTE with each attempt; what is tighter than a tolerance
-at which it failed is skipped."
+  "Measures METHOD at all tolerances, and calls NOTE with each attempt; what is tighter than a
+tolerance at which it failed is skipped."
   (let ((failed nil))
     (dolist (tolerance (numerics-contest-tolerances contest))
       (core-progress "~a at ~a" (core-spelling method) (numerics-tolerance-text tolerance))
@@ -116,10 +116,11 @@ interrupted."
   (let* ((trial (numerics-contest-trial contest)) (error (numerics-attempt-error attempt))
          (seconds (numerics-attempt-seconds attempt)))
     (flet ((few (x) (and x (numerics-few-digits x)))
-           (quartile (share) (and seconds (numerics-rounded-seconds
-                                           (numerics-quantile seconds share)))))
+           (quartile (share) (and seconds (numerics-few-digits
+                                           (max 0d0 (numerics-quantile seconds share))))))
       (apply #'algebra-list
-             (append (list (numerics-attempt-method attempt) (numerics-attempt-tolerance attempt) (few error)
+             (append (list (numerics-attempt-method attempt)
+                           (numerics-attempt-tolerance attempt) (few error)
                            (few (numerics-attempt-largest attempt)) (numerics-digits-of-error error)
                            (cons '(mlist simp)
                                  (loop for (name . drift) in (numerics-attempt-drifts attempt)

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Two diagrams of work and precision, log-log, from the record of ErrorAgainstTime: the error at the
-;;; end over seconds and over evaluations of the right side, a curve for each method; below the lines of
-;;; the reference's floor and of the conditioning nothing is known. What failed stands underneath. Look
-;;; first at $numerics_error_plot.
+;;; Two diagrams of work and precision, log-log, from the record of ErrorAgainstTime: the error at
+;;; the end over seconds and over evaluations of the right side, a curve for each method; below the
+;;; lines of the reference's floor and of the conditioning nothing is known. What failed stands
+;;; underneath. Look first at $numerics_error_plot.
 
 (in-package :maxima)
 
@@ -70,13 +70,13 @@
 
 (defun numerics-floor-items (floors range)
   "Lines across RANGE for FLOORS, (text value type of line)."
-  (cons (numerics-option '$point_size 0)
-        (loop for (text value type) in floors
-              when value
-                append (list (numerics-option '$color "#222222") (numerics-option '$line_type type)
-                             (numerics-option '$key text)
-                             (numerics-points (list (list (first range) value)
-                                                    (list (second range) value)))))))
+  (list* (numerics-option '$point_size 0) (numerics-option '$line_width 2)
+         (loop for (text value type) in floors
+               when value
+                 append (list (numerics-option '$color "#222222") (numerics-option '$line_type type)
+                              (numerics-option '$key text)
+                              (numerics-points (list (list (first range) value)
+                                                     (list (second range) value)))))))
 
 (defun numerics-decades (values)
   "The decades around VALUES."
@@ -89,44 +89,48 @@
 
 (defun numerics-range-option (name range) (numerics-option name (cons '(mlist simp) range)))
 
-(defun numerics-diagram (groups cost label floors failures)
-  "The scene of the errors of GROUPS over the column COST."
+(defun numerics-diagram (groups cost floors preamble)
+  "The scene of the errors of GROUPS over the column COST, with lines for FLOORS."
   (let* ((places (loop for (nil . rows) in groups append (numerics-cost-places rows cost)))
          (width (numerics-decades (mapcar #'first places)))
          (height (numerics-decades (append (mapcar #'second places)
                                            (remove nil (mapcar #'second floors))))))
-    (append (list (numerics-diagram-preamble label failures)
-                  (numerics-option '$logx t) (numerics-option '$logy t)
+    (append (list preamble (numerics-option '$logx t) (numerics-option '$logy t)
                   (numerics-range-option '$xrange width) (numerics-range-option '$yrange height))
             (numerics-method-items groups cost)
             (numerics-floor-items floors width)
             (unless places
               (list (list '($label simp)
-                          (list '(mlist simp) "no method reached the end"
+                          (list '(mlist simp) (numerics-why-empty groups)
                                 (sqrt (apply #'* width)) (sqrt (apply #'* height)))))))))
 
-(defun numerics-diagram-preamble (label failures)
-  "Below the axis as many lines as there are FAILURES, (text ..), nil where there is only room for them."
-  (let ((lines (rest failures)))
-    (apply #'numerics-preamble label "error at the end"
-           "set format xy '10^{%L}'" "set grid" "unset label"
-           (format nil "set bmargin ~d" (+ 4 (length lines)))
-           (when (first failures)
-             (loop for text in lines
-                   for k from 0
-                   collect (format nil "set label ~a at graph 0, graph 0 offset character 0, ~d ~
-                                        left noenhanced"
-                                   (numerics-gnuplot-text text) (- (+ 4 k))))))))
+(defun numerics-why-empty (groups)
+  (if (loop for (nil . rows) in groups thereis (some #'numerics-reached-row-p rows))
+      "there is no reference"
+      "no method reached the end"))
+
+(defun numerics-diagram-preamble (label room lines)
+  "Below the axis there is ROOM for so many lines, and at the foot of the picture stand LINES."
+  (apply #'numerics-preamble label "error at the end"
+         "set key samplen 2" "set format xy '10^{%L}'" "set grid" "unset label"
+         (format nil "set bmargin ~d" (+ 4 room))
+         (loop for (text . more) on lines
+               collect (format nil "set label ~a at screen 0.05, screen 0 offset character 0, ~d ~
+                                    left noenhanced"
+                               (numerics-gnuplot-text text) (1+ (length more))))))
 
 (defun $numerics_error_plot (picture record)
   "Draws RECORD, and gives it."
   (let* ((groups (numerics-rows-by-method (cdr ($core_get record '$rows))))
-         (lines (numerics-failure-lines groups))
-         (floors (list (list "floor of the reference"
+         (lines (numerics-failure-lines groups)) (room (length lines))
+         (floors (list (list "reference"
                              ($core_get ($core_get record '$reference) '$floor) '$dashes)
                        (list "conditioning" ($core_get record '$conditioning) '$dots))))
+    ;; What stands below goes with the diagram that is drawn last: each wipes its own half.
     (numerics-draw picture
-                   (numerics-diagram groups '$seconds "seconds" floors (cons t lines))
-                   (numerics-diagram groups '$rhs "evaluations of the right side" floors
-                                     (cons nil lines)))
+                   (numerics-diagram groups '$seconds floors
+                                     (numerics-diagram-preamble "seconds" room '()))
+                   (numerics-diagram groups '$rhs floors
+                                     (numerics-diagram-preamble "evaluations of the right side"
+                                                                room lines)))
     record))

@@ -5,8 +5,7 @@
 ;;;     (numerics-load-library '("libklu.so.1" "libklu.so.2")) -> the name that was found, or nil
 ;;;     (numerics-foreign-call "klu_solve" :int (:address symbolic) (:int n) (:vector b)) calls C
 ;;;     (numerics-interruptible ..)       the value, or :interrupted where the person does that
-;;;     (numerics-seconds)                the clock on the wall, fine to a microsecond;
-;;;                                       numerics-working-seconds without the time of loading
+;;;     (numerics-working-seconds)        the clock on the wall without the time of loading
 ;;;     (numerics-infinity), (numerics-not-a-number)
 ;;; Numbers go through none of these as objects, so that nothing is allocated.
 ;;; A foreign call is for after its library was loaded, and inside masked traps. Types are :int,
@@ -34,14 +33,9 @@
 #-sbcl
 (defun numerics-not-a-number () (- *numerics-infinity* *numerics-infinity*))
 
-(defun numerics-seconds ()
-  #+sbcl (multiple-value-bind (seconds microseconds) (sb-ext:get-time-of-day)
-           (+ seconds (* 1d-6 microseconds)))
-  #-sbcl (/ (get-internal-real-time) (coerce internal-time-units-per-second 'double-float)))
-
 (defun numerics-working-seconds ()
   "A clock that rests while parts are loaded and files are written."
-  (- (numerics-seconds) (core-uncounted-seconds)))
+  (- (core-clock) *core-uncounted-seconds*))
 
 (defun $numerics_working_seconds () (numerics-working-seconds))
 

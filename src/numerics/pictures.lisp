@@ -186,8 +186,8 @@
                   screen; give file = \"name.png\"" $gnuplot_command))))
 
 (defun numerics-draw (picture &rest scenes)
-  "The picture of SCENES side by side, each (preamble . items), items being options and objects of draw;
-the name of its file, or nil."
+  "The picture of SCENES side by side, each (preamble . items), items being options and objects of
+draw; the name of its file, or nil."
   (let* ((file (numerics-picture-file picture))
          (*numerics-drawing* (format nil "dynarch~d_~d" (core-process-id)
                                      (incf *numerics-drawings*))))

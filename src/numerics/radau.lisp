@@ -149,6 +149,7 @@
   (cond ((eq (numerics-radau-run-jacobian run) :old)
          (setf (numerics-radau-run-jacobian run) :none)
          nil)
+        ((numerics-radau-inspect-guess run))
         (t (numerics-radau-reject run factor (if (= factor 0.25d0) :not-finite :no-convergence)))))
 
 (defun numerics-radau-judge (run observer)
@@ -160,8 +161,11 @@
           ((not (numerics-radau-look-ahead run))
            (incf (numerics-counts-not-finite (numerics-radau-run-counts run)))
            (numerics-radau-reject run 0.25d0 :not-finite))
-          ((numerics-radau-deceived-p run) (setf (numerics-radau-run-jacobian run) :none) nil)
-          ((numerics-radau-inspect run))
+          ((numerics-radau-inspect run nil))
+          ((numerics-radau-deceived-p run)
+           (incf (numerics-counts-rejected (numerics-radau-run-counts run)))
+           (setf (numerics-radau-run-jacobian run) :none)
+           nil)
           (t (numerics-radau-accept run observer)))))
 
 (defun numerics-radau-look-ahead (run)
@@ -206,19 +210,39 @@ whether it is finite."
           (numerics-advance to step))
       seen)))
 
-(defun numerics-radau-inspect (run)
+(defun numerics-radau-inspect-guess (run)
+  "The same where stages were not found: a jump may be in the way. The step is what the last one is
+continued to."
+  (unless (or (null (numerics-controls-inspect (numerics-radau-run-controls run)))
+              (numerics-radau-run-first run))
+    (numerics-radau-guess-stages run)
+    (numerics-with-radau (run before after z3)
+      (numerics-add before z3 after))
+    (numerics-radau-inspect run t)))
+
+(defun numerics-radau-inspect (run guessed)
   "Where the controls look at the step before it stands: :again where it is cut, the status in which
 RUN ends before it, or nil."
   (let ((inspect (numerics-controls-inspect (numerics-radau-run-controls run))))
     (when inspect
-      (numerics-radau-collocate run)
-      (multiple-value-bind (share over) (funcall (the function inspect) (numerics-radau-see run))
-        (cond ((null share) nil)
-              ((stringp share)
-               (setf (numerics-radau-run-about run) share)
-               :sliding)
-              (t (numerics-radau-cut run share over)
-                 :again))))))
+      (let ((last (numerics-radau-polynomial run)))
+        (numerics-radau-collocate run)
+        (multiple-value-bind (share over)
+            (funcall (the function inspect) (numerics-radau-see run) guessed)
+          (numerics-radau-set-polynomial run last)
+          (cond ((null share) nil)
+                ((stringp share)
+                 (setf (numerics-radau-run-about run) share)
+                 :sliding)
+                (t (numerics-radau-cut run share over)
+                   :again)))))))
+
+(defun numerics-radau-polynomial (run)
+  "A copy of the collocation polynomial of the last accepted step: stages are guessed from it."
+  (numerics-with-radau (run p1 p2 p3) (mapcar #'copy-seq (list p1 p2 p3))))
+
+(defun numerics-radau-set-polynomial (run polynomial)
+  (numerics-with-radau (run p1 p2 p3) (mapc #'replace (list p1 p2 p3) polynomial)))
 
 (defun numerics-radau-cut (run share over)
   "The next trial of RUN is SHARE of this one, and leads OVER a jump or to it."

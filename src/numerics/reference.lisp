@@ -1,15 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a run is measured against: states at given times. By Taylor series of 20 digits, two runs of
-;;; which agree, where they reach the end in so many steps (a stiff system is beyond them); else by
-;;; Radau at a tolerance of 1e-13, whose distance to its run at 1e-12 is the floor below which no
+;;; What a run is measured against: states at given times. By Taylor series of 20 digits, two runs
+;;; of which agree, where they reach the end in so many steps (a stiff system is beyond them); else
+;;; by Radau at a tolerance of 1e-13, whose distance to its run at 1e-12 is the floor below which no
 ;;; error can be judged, and whose end dlsode, another method, has to confirm. Radau's steps end at
 ;;; each of the times, since between its steps a state is known to fewer digits.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode" "numerics/problem" "numerics/radau" "numerics/step_control"
-                "numerics/taylor"))
+  (core-require "numerics/conditioning" "numerics/decimals" "numerics/dlsode"
+                "numerics/dormand_prince" "numerics/observers" "numerics/problem"
+                "numerics/radau" "numerics/step_control" "numerics/taylor"))
 
 (defstruct numerics-reference
   method ; a sentence
@@ -17,17 +18,18 @@
   errors ; of each state, at most about, a vector
   rows)  ; lists (time . states) of double-float numbers; nil where nothing could be had
 
-(defun numerics-reference-of (problem controls start times &key (most-steps 5000)
-                                                             (observer (constantly nil))
-                                                             (other 'numerics-dlsode))
+(defparameter *numerics-most-series-steps* 5000)
+
+(defun numerics-reference-of (problem controls start times
+                              &key (most-steps *numerics-most-series-steps*) projection)
   "The reference for PROBLEM at the end of CONTROLS, from START, exact states at the first of the
-exact TIMES; the last of these is the end. OBSERVER looks on at the steps in double-float numbers. With
-no steps no series are tried. OTHER is the method that confirms an end by implicit steps."
+exact TIMES; the last of these is the end. With no steps no series are tried. PROJECTION is the part
+of an observer that brings states back to constraints, or nil."
   (or (and (plusp most-steps)
            (numerics-series-reference problem controls start times most-steps))
       (numerics-implicit-reference
-       problem controls observer (map 'list #'numerics-double-of-exact times)
-       (map 'numerics-vector #'numerics-double-of-exact start) other)))
+       problem controls projection (map 'list #'numerics-double-of-exact times)
+       (map 'numerics-vector #'numerics-double-of-exact start))))
 
 (defun numerics-double-of-exact (e) (coerce ($float e) 'double-float))
 
@@ -47,7 +49,8 @@ no steps no series are tried. OTHER is the method that confirms an end by implic
 (defparameter *numerics-series-seconds* 20 "No longer series are tried.")
 
 (defun numerics-series-reference (problem controls start times most-steps)
-  "The reference by Taylor series, nil where they do not reach the end in this time, or cannot begin."
+  "The reference by Taylor series, nil where they do not reach the end in this time, or cannot
+begin."
   (let ((outcome (numerics-series-outcome problem controls start times most-steps)))
     (when (and outcome (eq (numerics-outcome-status outcome) :end))
       (make-numerics-reference
@@ -81,18 +84,22 @@ no steps no series are tried. OTHER is the method that confirms an end by implic
 
 ;;; Implicit steps
 
-(defun numerics-implicit-reference (problem controls observer times start other)
-  (flet ((rows (relative)
-           (numerics-rows-by-radau problem (numerics-copied-controls controls relative 0d0)
-                                   observer times start)))
-    (let* ((fine (rows 1d-13)) (coarse (and fine (rows 1d-12))))
-      (if coarse
-          (numerics-judged-reference
-           fine (numerics-largest-differences fine coarse)
-           (numerics-confirmation problem controls observer fine other)
-           (numerics-full-scales controls (length start)))
-          (make-numerics-reference
-           :method "no reference: Radau at a tolerance of 1e-13 does not reach the end")))))
+(defun numerics-implicit-reference (problem controls projection times start)
+  (let ((observer (numerics-observer
+                   (append (and projection (list projection))
+                           (list (numerics-progress-part controls))))))
+    (flet ((rows (relative)
+             (numerics-rows-by-radau problem (numerics-copied-controls controls relative 0d0)
+                                     observer times start)))
+      (let* ((fine (rows 1d-13)) (coarse (and fine (rows 1d-12))))
+        (if coarse
+            (numerics-judged-reference
+             fine (numerics-largest-differences fine coarse)
+             (numerics-confirmation problem controls observer fine
+                                    (if projection 'numerics-dopri 'numerics-dlsode))
+             (numerics-full-scales controls (length start)))
+            (make-numerics-reference
+             :method "no reference: Radau at a tolerance of 1e-13 does not reach the end"))))))
 
 (defun numerics-rows-by-radau (problem controls observer times start)
   "Lists (time . states) at TIMES; nil where one of them is not reached. CONTROLS are used up."
@@ -100,7 +107,8 @@ no steps no series are tried. OTHER is the method that confirms an end by implic
     (loop for (from to) on times
           while to
           do (setf (numerics-controls-end controls) to)
-             (let ((outcome (numerics-radau problem controls (numerics-moment from) state observer)))
+             (let ((outcome (numerics-radau problem controls (numerics-moment from) state
+                                            observer)))
                (unless (eq (numerics-outcome-status outcome) :end) (return nil))
                (setf (numerics-controls-first-step controls)
                      (and (plusp (abs (numerics-outcome-step outcome)))
@@ -121,8 +129,8 @@ no steps no series are tried. OTHER is the method that confirms an end by implic
 (defparameter *numerics-confirming-seconds* 20 "No longer another method is waited for.")
 
 (defun numerics-confirmation (problem controls observer rows other)
-  "(name . distance): the method OTHER and how far from the last of ROWS it ends at a tolerance of 1e-11;
-no distance where it does not come there. It knows no mass matrix."
+  "(name . distance): the method OTHER and how far from the last of ROWS it ends at a tolerance of
+1e-11; no distance where it does not come there. It knows no mass matrix."
   (cons (if (eq other 'numerics-dlsode) "dlsode" "DOP853")
         (unless (numerics-problem-mass problem)
           (let* ((end (first (last rows))) (start (first rows))

@@ -49,14 +49,15 @@
   :options '("values" "integrals" "rayleigh" "forces" "constraints" "nonholonomic" "laws" "function"
              "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
-(core-rule "ReferenceSolution" :any "numerics/trial_reference" "numerics_reference_solution" "trial")
+(core-rule "ReferenceSolution" :any "numerics/trial_reference" "numerics_reference_solution"
+  "trial")
 
 (core-public "ErrorAgainstTime"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
            ("equations" "equations" "start" "time"))
   :trailing '("start" "time")
-  :options '("values" "methods" "tolerances" "cell" "file" "replace" "integrals" "rayleigh" "forces" "constraints"
-             "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
+  :options '("values" "methods" "tolerances" "cell" "file" "replace" "integrals" "rayleigh" "forces"
+             "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
 (core-rule "contest" :any "numerics/error_against_time" "numerics_contest" "trial"
   '("methods" ((mlist simp) $auto $dop853 $radau $gauss $dlsode))

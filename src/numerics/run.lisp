@@ -8,11 +8,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/constrained" "numerics/decimals"
-                "numerics/events"
-                "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
-                "numerics/back_to_constraints" "numerics/rates_problem" "numerics/routine"
-                "numerics/run_options"))
+                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/constrained"
+                "numerics/decimals" "numerics/events" "numerics/native" "numerics/observers"
+                "numerics/problem" "numerics/program" "numerics/back_to_constraints"
+                "numerics/rates_problem" "numerics/routine" "numerics/run_options"))
 
 (defstruct numerics-simulation
   rates values wishes program problem controls      ; VALUES: ((name . element) ..)
@@ -92,7 +91,8 @@ were put in, pairs (name . element). HOW as of numerics-problem-of."
       run)))
 
 (defun numerics-run-again (run controls wishes)
-  "A run of the same from the start, with CONTROLS and WISHES of its own, as if nothing had run yet."
+  "A run of the same from the start, with CONTROLS and WISHES of its own, as if nothing had run
+yet."
   (let ((again (copy-numerics-simulation run)))
     (setf (numerics-simulation-controls again) controls
           (numerics-simulation-wishes again) wishes

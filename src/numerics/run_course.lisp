@@ -115,7 +115,7 @@ steps; for others a part of an observer, or nil."
     (cond ((null switches) nil)
           ((member (numerics-wishes-method wishes) *numerics-cutting-methods*)
            (setf (numerics-controls-inspect controls)
-                 (lambda (step) (numerics-inspect-switches switches step)))
+                 (lambda (step guessed) (numerics-inspect-switches switches step guessed)))
            nil)
           (t (numerics-switch-part
               switches (lambda (trouble) (setf (numerics-simulation-fault run) trouble)))))))
@@ -142,10 +142,11 @@ steps; for others a part of an observer, or nil."
 (defun numerics-within-share (function) (core-within *numerics-share-of-time* function))
 
 (defun numerics-carry-out (run &optional (within #'numerics-within-share))
-  "Makes the RUN; two values: the sentence of the stop where its time was up or the person interrupted
-it, and whether it was the latter. WITHIN calls a function within a time, as core-within."
+  "Makes the RUN; two values: the sentence of the stop where its time was up or the person
+interrupted it, and whether it was the latter. WITHIN calls a function within a time, as
+core-within."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
-         (began (numerics-seconds)) (compiled *numerics-compile-seconds*) (outcome nil))
+         (began (core-clock)) (compiled *numerics-compile-seconds*) (outcome nil))
     (setf (numerics-simulation-began run) (numerics-working-seconds))
     (multiple-value-bind (value stop)
         (funcall within
@@ -160,7 +161,7 @@ it, and whether it was the latter. WITHIN calls a function within a time, as cor
       (when (eq value :interrupted)
         (setq stop (format nil "interrupted~@[ at ~a~]" *core-doing*)))
       (let ((compilation (- *numerics-compile-seconds* compiled)))
-        (setf (numerics-simulation-seconds run) (- (numerics-seconds) began compilation)
+        (setf (numerics-simulation-seconds run) (- (core-clock) began compilation)
               (numerics-simulation-compiled-on-the-way run) compilation
               (numerics-simulation-outcome run) outcome))
       (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))

@@ -126,7 +126,8 @@ without constraints."
                              maximize (abs (core-bigfloat-rational value))))))))
 
 (defun numerics-start-residual (run start time digits)
-  "What START, exact values, violates the constraints by, computed to more than DIGITS; nil without any."
+  "What START, exact values, violates the constraints by, computed to more than DIGITS; nil without
+any."
   (numerics-exact-residual run (list (numerics-big-start (cons time start) (+ digits 10)))
                            (+ digits 10)))
 
@@ -153,10 +154,11 @@ without constraints."
   (let* ((digits (numerics-wishes-digits (numerics-simulation-wishes run)))
          (integrals (numerics-told-integrals run)))
     (when (and integrals (cdr rows))
-      (setf (numerics-simulation-drifting run) (mapcar #'first integrals)
+      (setf (numerics-simulation-drifting run) (mapcar #'forms-first-integral-name integrals)
             (numerics-simulation-drifts run)
             (let ((function (numerics-big-values
-                             run (append (mapcar #'second integrals) (mapcar #'third integrals))
+                             run (append (mapcar #'forms-first-integral-value integrals)
+                                         (mapcar #'forms-first-integral-size integrals))
                              (+ digits 5))))
               (numerics-big-drifts (loop for row in (cdr rows)
                                          collect (mapcar #'core-bigfloat-rational

@@ -153,17 +153,21 @@ another."
 
 (defparameter *numerics-most-missed* 2d0 "Of the tolerance, in a step over a jump or a corner.")
 
-(defun numerics-inspect-switches (switches step)
+(defun numerics-inspect-switches (switches step guessed)
   "nil where STEP may stand; else the share of it that may, and whether that goes over a zero; or a
-sentence where no solution goes on."
+sentence where no solution goes on. Of a step that was only GUESSED all this counts where X follows
+it to the first zero."
   (let ((zeros (numerics-switch-zeros switches step)))
-    (when zeros
+    (when (and zeros (or (not guessed)
+                         (< (numerics-missed switches step 0d0 (first (first zeros))) 1d0)))
       (let ((missed (numerics-missed-in-all switches step zeros)))
-        (if (> missed *numerics-most-missed*)
-            (numerics-cut-share switches step (first zeros)
-                                (max (/ 0.1d0 missed) (numerics-shortest-share switches step)))
-            (destructuring-bind (share place) (first zeros)
-              (numerics-turned-back switches step share place)))))))
+        (destructuring-bind (share place) (first zeros)
+          (if (> missed *numerics-most-missed*)
+              (let ((short (max (/ 0.1d0 missed) (numerics-shortest-share switches step))))
+                (if (and guessed (> share short))
+                    (values (- share (* 0.5d0 short)) nil)
+                    (numerics-cut-share switches step (first zeros) short)))
+              (and (not guessed) (numerics-turned-back switches step share place))))))))
 
 (defun numerics-shortest-share (switches step)
   "Of STEP, that a method makes."

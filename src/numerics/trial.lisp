@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What methods are tried on: a system with its start and span, derived and compiled once. An attempt is
-;;; one method at one tolerance; its bare run only steps to the end, another one looks at rows and
-;;; integrals on the way. Look first at $numerics_trial.
+;;; What methods are tried on: a system with its start and span, derived and compiled once. An
+;;; attempt is one method at one tolerance; its bare run only steps to the end, another one looks at
+;;; rows and integrals on the way. Look first at $numerics_trial.
 
 (in-package :maxima)
 

@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; One attempt, a line of a table of errors against run time: a bare run, repeated where it is short, whose end
-;;; is compared with the reference; then one that looks at 100 points of its dense output and at the
-;;; integrals. What fails or takes too long says why in words. See numerics-measured-attempt first.
+;;; One attempt, a line of a table of errors against run time: a bare run, repeated where it is
+;;; short, whose end is compared with the reference; then one that looks at 100 points of its dense
+;;; output and at the integrals. What fails or takes too long says why in words. See
+;;; numerics-measured-attempt first.
 
 (in-package :maxima)
 
@@ -60,7 +61,8 @@
             (numerics-attempt-interrupted attempt) interrupted)
       (let ((trouble (cond (interrupted stop)
                            (stop (format nil "more than ~a s"
-                                         (numerics-short-number (numerics-contest-seconds contest))))
+                                         (numerics-short-number
+                                          (numerics-contest-seconds contest))))
                            (t (numerics-placed-trouble run)))))
         (setf (numerics-attempt-status attempt) (or trouble "reached the end")
               (numerics-attempt-reached attempt) (null trouble))))))
@@ -77,8 +79,8 @@
 (defparameter *numerics-repeated-seconds* 0.2d0 "Shorter runs are repeated.")
 
 (defun numerics-repetitions (seconds)
-  "Two values: how many times are taken of a run of SECONDS, for about half a second, and of how many runs
-each is the mean, since the clock ticks in microseconds."
+  "Two values: how many times are taken of a run of SECONDS, for about half a second, and of how
+many runs each is the mean, since the clock ticks in microseconds."
   (if (< seconds *numerics-repeated-seconds*)
       (values (max 5 (min 11 (floor 0.5d0 (max seconds 1d-6))))
               (max 1 (min 10 (floor 1d-3 (max seconds 1d-6)))))
@@ -116,7 +118,8 @@ each is the mean, since the clock ticks in microseconds."
 
 ;;; What the run was worth
 
-(defparameter *numerics-patience* 10 "Times what the bare run may take that which looks on may take.")
+(defparameter *numerics-patience* 10
+  "Times what the bare run may take that which looks on may take.")
 
 (defun numerics-look-at-attempt (contest attempt)
   "Compares with the reference at the end and at 100 points, and looks at the integrals."
@@ -152,6 +155,13 @@ each is the mean, since the clock ticks in microseconds."
       (setf (numerics-attempt-largest attempt)
             (max (numerics-attempt-error attempt)
                  (loop for row in rows
-                       for k below (numerics-rows-count found)
-                       maximize (numerics-distance-to row (numerics-row-state found k)
-                                                      contest)))))))
+                       for k = (numerics-number-of-row row rows)
+                       when (< k (numerics-rows-count found))
+                         maximize (numerics-distance-to row (numerics-row-state found k)
+                                                        contest)))))))
+
+(defun numerics-number-of-row (row rows)
+  "The number of the row of a run at the time of ROW, one of those of a reference, ROWS, which may
+have fewer."
+  (let ((start (first (first rows))) (end (first (first (last rows)))))
+    (round (* (1- *numerics-trial-points*) (/ (- (first row) start) (- end start))))))

@@ -7,17 +7,9 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "numerics/automatic" "numerics/back_to_constraints"
-                "numerics/conditioning" "numerics/decimals" "numerics/dlsode"
-                "numerics/dormand_prince" "numerics/native" "numerics/observers"
+                "numerics/conditioning" "numerics/decimals" "numerics/native"
                 "numerics/problem" "numerics/program" "numerics/reference" "numerics/run"
                 "numerics/run_course" "numerics/run_digits" "numerics/trial"))
-
-(defun numerics-reference-observer (run)
-  "What looks on at the steps of a reference: back to the constraints of RUN, and progress."
-  (let ((constraints (numerics-simulation-constraints run)))
-    (numerics-observer
-     (append (and constraints (list (numerics-projection-part constraints)))
-             (list (numerics-progress-part (numerics-simulation-controls run)))))))
 
 (defun numerics-series-begin-p (run start time)
   "Whether START holds the constraints of RUN to the digits of series."
@@ -33,13 +25,15 @@
       (numerics-with-masked-traps
         (numerics-reference-of
          (numerics-simulation-problem run) (numerics-simulation-controls run) start times
-         :most-steps (if (numerics-series-begin-p run start (first times)) 5000 0)
-         :observer (numerics-reference-observer run)
-         :other (if (numerics-simulation-constraints run) 'numerics-dopri 'numerics-dlsode))))))
+         :most-steps (if (numerics-series-begin-p run start (first times))
+                         *numerics-most-series-steps*
+                         0)
+         :projection (and (numerics-simulation-constraints run)
+                          (numerics-projection-part (numerics-simulation-constraints run))))))))
 
 (defun $numerics_reference_solution (trial)
-  "Record: method, digits, errors of each state, rows [t, x1, ..]; one that its time did not suffice for is
-a part."
+  "Record: method, digits, errors of each state, rows [t, x1, ..]; one that its time did not suffice
+for is a part."
   (core-progress "making a reference")
   (multiple-value-bind (reference stop)
       (core-within *numerics-share-of-reference* (lambda () (numerics-reference-of-trial trial)))
