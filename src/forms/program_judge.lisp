@@ -175,7 +175,7 @@ constraints in names inside."
       (mapcar #'value elements))))
 
 ;;; What vanishes at a random point vanishes everywhere, but for jumps and corners: a force that
-;;; acts ;;; from t = 5 on is 0 at most points. So the sign of u is any number s there, and |u| is s u.
+;;; acts from t = 5 on is 0 at most points. So the sign of u is any number s there, and |u| is s u.
 
 (defvar *forms-signs-are-open* nil)
 
