@@ -28,9 +28,10 @@ bench-numerics:
 bench-verdicts:
 	@bench/verdicts/run
 
-# The report of the package on itself: doc/numbers.md, doc/methods.md. Under five minutes; report-full within the hour.
+# The report of the package on itself: doc/numbers.md, doc/methods.md, doc/verdicts.md. Under five minutes; report-full within the hour.
 report:
 	@bench/report/run
+	@bench/verdicts/run doc
 
 report-full:
 	@bench/report/run full
