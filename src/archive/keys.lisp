@@ -5,8 +5,8 @@
 ;;; from here; plain data, no Maxima in it. A row is (name type default help question), the help a
 ;;; format's control without arguments. The default is text as it would stand in the archive; nil
 ;;; where the key may be absent; :required; (:when key value) required if that key has that value;
-;;; (:unless key [text]) required if that is absent, else of the default text; (:with key text) a
-;;; default that makes sense beside that key only.
+;;; (:unless key text) required if that is absent, else of the default text or nil; (:with key
+;;; text) a default that makes sense beside that key only.
 
 (in-package :maxima)
 

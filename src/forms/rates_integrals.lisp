@@ -85,10 +85,7 @@
                          (mapcar #'algebra-program-subtract (forms-program-terms-forces terms)
                                  (forms-program-terms-damping terms))
                          (mapcar #'forms-bond-row (forms-dynamics-bonds dynamics))))
-         (found (catch 'forms-no-value
-                  (forms-program-values (loop for column in (cons momenta columns)
-                                              append column)
-                                        point))))
+         (found (forms-program-values-on-all-sides (apply #'append momenta columns) point)))
     (loop with n = (length momenta)
           for k below n
           collect (and found

@@ -6,9 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "forms/rates"
-                "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program"
-                "numerics/rate_program" "numerics/routine" "numerics/run" "numerics/run_options"))
+  (core-require "algebra/program_nodes" "forms/program_judge" "forms/rates" "forms/value"
+                "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program" "numerics/routine" "numerics/run" "numerics/run_options"))
 
 (defparameter *numerics-states-of-balances* 40
   "Explicit methods with more states would take as long for the states between their steps as for
@@ -44,7 +43,7 @@ these.")
 (defun numerics-settled-integral (integral)
   "INTEGRAL without a power that vanishes, or under the name of a balance."
   (destructuring-bind (name value size power) integral
-    (if (numerics-nought-p power)
+    (if (forms-nought-p (list power) (forms-new-point t))
         (forms-first-integral name value size)
         (forms-first-integral (core-symbol (format nil "~a_balance" (core-spelling name)))
                               value size power))))
