@@ -7,7 +7,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "forms/program_judge" "forms/rates" "forms/value"
-                "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program" "numerics/routine" "numerics/run" "numerics/run_options"))
+                "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program"
+                "numerics/routine" "numerics/run" "numerics/run_options"))
 
 (defparameter *numerics-states-of-balances* 40
   "Explicit methods with more states would take as long for the states between their steps as for
