@@ -83,6 +83,12 @@
     (list (reduce #'min ones) (reduce #'min others)
           (bench-quartiles (mapcar #'/ ones others)))))
 
+(defun bench-bytes (function)
+  "That a call of FUNCTION, of a number of calls, takes from the heap, in the mean of many."
+  (let* ((count (max 1000 (bench-count function))) (start (sb-ext:get-bytes-consed)))
+    (funcall function count)
+    (floor (- (sb-ext:get-bytes-consed) start) count)))
+
 (defun bench-state (n)
   (let ((state (numerics-zeros n)))
     (dotimes (k n state) (setf (aref state k) (sin (* 1.7d0 (1+ k)))))))
@@ -104,15 +110,15 @@
             (let* ((function nil)
                    (seconds (bench-seconds
                              (lambda () (setq function (numerics-routine program rates :how how)))))
-                   (result (bench-pairs
-                            (lambda (count) (bench-call-lisp function time state out count))
-                            #'call-c)))
+                   (call (lambda (count) (bench-call-lisp function time state out count)))
+                   (bytes (bench-bytes call))
+                   (result (bench-pairs call #'call-c)))
               (unless (bench-values-agree-p out out-c) (core-error "the values differ"))
               (destructuring-bind (one other (low middle high)) result
                 (format t "~26a ~8a ~6d nodes: ~9,3f us, C ~9,3f us, quotient ~5,2f (~,2f .. ~,2f); ~
-                           made in ~7,3f s, gcc ~7,3f s~%"
+                           made in ~7,3f s, gcc ~7,3f s; ~d bytes a call~%"
                         title (string-downcase how) (numerics-count-operations rates)
-                        (* 1d6 one) (* 1d6 other) middle low high seconds seconds-c)))))))
+                        (* 1d6 one) (* 1d6 other) middle low high seconds seconds-c bytes)))))))
     '$done))
 
 (defun $bench_end ()

@@ -158,6 +158,7 @@
     (core-guarded facts
                   (lambda ()
                     (or (signs-wrong-sign facts points)
+                        (signs-wrong-root facts points)
                         (signs-wrong-form '$simplified #'simplify facts points)
                         (signs-wrong-form '$normal #'signs-normal facts points))))))
 
@@ -169,6 +170,24 @@
           unless (or (null value) (member sign (signs-of-value value)))
             return (list '(mlist simp) sign e (cons '(mlist simp) facts)
                          (signs-shown point)))))
+
+(defun signs-wrong-root (facts points)
+  "The sign of c*sqrt(p) + b against those at the points, where squares are compared."
+  (let* ((b (signs-short)) (c (if (zerop (signs-random 3)) (signs-short) (signs-number-m)))
+         (p (add (power b 2) (if (zerop (signs-random 2)) (signs-short) (signs-number-m))))
+         (sign ($algebra_sign (add (mul c (power p '((rat simp) 1 2))) b))))
+    (loop for point in points
+          for (vb vc vp) = (loop for e in (list b c p)
+                                 collect (catch 'no-value (signs-value e point)))
+          unless (or (null vb) (null vc) (null vp) (minusp vp)
+                     (member sign (signs-of-value (signs-root-sum vb vc vp))))
+            return (list '(mlist simp) sign b c p (cons '(mlist simp) facts)
+                         (signs-shown point)))))
+
+(defun signs-root-sum (b c p)
+  "Has the sign of b + c*sqrt(p), numbers."
+  (let ((root (* (signum c) c c p)) (beside (* (signum b) b b)))
+    (+ root beside)))
 
 (defun signs-normal (form) (algebra-normal-form (simplify form)))
 

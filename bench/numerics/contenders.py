@@ -43,7 +43,8 @@ class Worker:
 
 
 Point = namedtuple("Point", "tolerance scale error seconds evaluations")
-patience = 40.0  # seconds; a run that takes more is the last of its curve, and is not repeated
+patience = 30.0  # seconds; a run that takes more is the last of its curve, and is not repeated
+long = 3.0  # seconds; of a run that takes more only the stricter neighbour is timed again
 
 
 class Contender:
@@ -95,10 +96,14 @@ class Contender:
     def slow(self):
         return max(point.seconds for point in self.ends) > patience
 
+    def timed(self):
+        """The ends that are timed in each pair."""
+        return self.ends[-1:] if self.ends[-1].seconds > long else self.ends
+
     def warm(self, slice_seconds):
         """Finds how many runs take a slice of time, and gives the seconds of a slice of all ends."""
         self.counts, turn = [], 0.0
-        for point in self.ends:
+        for point in self.timed():
             repeats, seconds = 1, point.seconds
             while seconds * repeats < slice_seconds / 4:
                 repeats *= 4
@@ -109,7 +114,9 @@ class Contender:
 
     def slice(self):
         """Seconds of a run with the error at which it stands."""
-        times = [self.run(point.tolerance, point.scale, count)[0] for point, count in zip(self.ends, self.counts)]
+        times = [self.run(point.tolerance, point.scale, count)[0] for point, count in zip(self.timed(), self.counts)]
+        if len(times) < len(self.ends):
+            return times[0] * between(self.share, *(point.seconds for point in self.ends)) / self.ends[-1].seconds
         return between(self.share, *times)
 
     def evaluations(self):

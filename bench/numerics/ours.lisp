@@ -17,7 +17,7 @@
 
 (defvar *bench-scenes* (make-hash-table :test #'equal))
 
-(defstruct bench-scene system record names start span problem)
+(defstruct bench-scene system record names start span state times problem)
 
 (defun bench-doubles (list)
   (map 'numerics-vector (lambda (e) (coerce ($float e) 'double-float)) (cdr list)))
@@ -46,14 +46,16 @@
                      (if (find #\. size) (bench-number size) (parse-integer size))))
     (let* ((record (mfuncall '$bench_program_of system))
            (scene (make-bench-scene :system system :record record :start start :span span
+                                    :state (bench-doubles start)
+                                    :times (bench-doubles (cdr span))
                                     :names (algebra-record-part record '$states))))
       (setf (gethash name *bench-scenes*) scene
             (bench-scene-problem scene) (bench-problem scene t))
       (bench-answer "~{~a ~}; ~{~a ~}; ~{~a ~}" 
                     (mapcar (lambda (e) (remove #\Space (core-words (list e))))
                             (cdr (bench-scene-names scene)))
-                    (coerce (bench-doubles start) 'list)
-                    (coerce (bench-doubles (cons nil (cddr span))) 'list)))))
+                    (coerce (bench-scene-state scene) 'list)
+                    (coerce (bench-scene-times scene) 'list)))))
 
 (defun bench-problem (scene jacobian)
   (numerics-problem-of-program (bench-scene-record scene) nil :jacobian jacobian :how :compiled))
@@ -65,16 +67,18 @@
 
 (defun bench-time (scene place)
   "The begin of its span, place 0, or the end, 1."
-  (aref (bench-doubles (cdr (bench-scene-span scene))) place))
+  (aref (bench-scene-times scene) place))
 
 (defun bench-moment (scene) (numerics-moment (bench-time scene 0)))
 
 (defun bench-method-run (scene problem method tolerance scale &optional (observer (constantly nil)))
   "The outcome and the counts."
-  (let* ((start (bench-doubles (bench-scene-start scene)))
+  (let* ((start (bench-scene-state scene))
          (controls (make-numerics-controls
                     :end (bench-time scene 1)
-                    :relative tolerance :scales (map 'numerics-vector (constantly scale) start))))
+                    :relative tolerance
+                    :scales (make-array (length start) :element-type 'double-float
+                                                       :initial-element scale))))
     (values (numerics-with-masked-traps
               (funcall (cdr (assoc method *bench-methods* :test #'string=)) problem controls
                        (bench-moment scene) start observer))
@@ -117,7 +121,7 @@
   (/ (get-internal-run-time) (float internal-time-units-per-second 1d0)))
 
 (defun bench-call-rates (scene calls)
-  (let* ((state (bench-doubles (bench-scene-start scene))) (out (numerics-zeros (length state)))
+  (let* ((state (bench-scene-state scene)) (out (numerics-zeros (length state)))
          (moment (bench-moment scene)) (begin (bench-now)))
     (numerics-with-masked-traps
       (bench-call-lisp (numerics-problem-rates (bench-scene-problem scene)) moment state out calls))
@@ -135,7 +139,7 @@
 
 (defun bench-drift (scene method tolerance scale)
   "max |E - E0|/max(|E0|, T + |U|)"
-  (let* ((first (bench-energy (bench-doubles (bench-scene-start scene)))) (drift 0d0)
+  (let* ((first (bench-energy (bench-scene-state scene))) (drift 0d0)
          (size (abs first)))
     (bench-method-run scene (bench-scene-problem scene) method tolerance scale
                       (lambda (step)

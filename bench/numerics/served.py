@@ -4,10 +4,13 @@ import sys
 import time
 
 
-def serve(run):
-    """run(scene, method, tolerance, scale) gives evaluations and the state at the end, None where it does not end."""
+def serve(run, prepare=None):
+    """run(scene, method, tolerance, scale) gives evaluations and the state at the end, None where it does not end.
+    prepare(scene, method, tolerance) is outside of the seconds."""
     for line in sys.stdin:
         scene, method, tolerance, scale, repeats = line.split()
+        if prepare:
+            prepare(scene, method, float(tolerance))
         begin = time.process_time()
         for _ in range(int(repeats)):
             answer = run(scene, method, float(tolerance), float(scale))

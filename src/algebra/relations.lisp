@@ -84,10 +84,16 @@
     (algebra-guard (* half half) "a power of a sine or cosine, put in for the other,")
     (loop for (exponent coefficient) on (cdr p) by #'cddr
           do (setf (aref (if (oddp exponent) odd even) (floor exponent 2)) coefficient))
-    (destructuring-bind (x a b) (list (first square) (third square) (fifth square))
+    (multiple-value-bind (x a b) (algebra-square-parts square)
       (flet ((lowered (coefficients)
                (algebra-even-powers x (algebra-horner coefficients a b))))
         (pplus (lowered even) (ptimes (lowered odd) (list variable 1 1)))))))
+
+(defun algebra-square-parts (square)
+  "Three values: x, a, b of SQUARE, the polynomial a*x^2 + b."
+  (destructuring-bind (x degree-2 a degree-0 b) square
+    (declare (ignore degree-2 degree-0))
+    (values x a b)))
 
 (defun algebra-even-powers (x coefficients)
   "sum of coefficient_k*x^(2k)"
@@ -112,7 +118,7 @@
   (algebra-guard (* n n) "a power of a sine or cosine, put in for the other,")
   (if (zerop n)
       1
-      (destructuring-bind (x a b) (list (first square) (third square) (fifth square))
+      (multiple-value-bind (x a b) (algebra-square-parts square)
         (cons x (loop for k from n downto 0
                       for choices = 1 then (/ (* choices (1+ k)) (- n k))
                       collect (* 2 k)

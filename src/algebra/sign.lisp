@@ -2,8 +2,9 @@
 ;;;
 ;;; The one judge of signs. algebra_sign(e): what the facts prove, else unknown; no question is
 ;;; asked and Maxima's `sign' has no voice. After the sign of e as it stands: of numerator and
-;;; denominator factor by factor, each by the facts, by its real roots, by a discriminant, by
-;;; bounds put in, and by a proof as a sum of products of facts.
+;;; denominator factor by factor, each by the facts, by its real roots, by a discriminant, by the
+;;; squares of a root and of what stands beside it, by bounds put in, and by a proof as a sum of
+;;; products of facts.
 
 (in-package :maxima)
 
@@ -96,6 +97,7 @@
                                      #'algebra-sign-by-one-fact #'algebra-shifted-sign
                                      (and (< size 250)
                                           (list #'algebra-discriminant-sign
+                                                #'algebra-root-balance-sign
                                                 #'algebra-proved-sign)))
                               ($expand factor))
         (algebra-simple-sign factor))))
@@ -136,3 +138,29 @@
                   (t '$unknown))
                 '$unknown)))
         '$unknown)))
+
+;;; A square root and what stands beside it: |c*sqrt(p)| and |b| compare as their squares do.
+
+(defun algebra-root-balance-sign (e)
+  "Of c*sqrt(p) + b."
+  (let ((*algebra-discriminants-left* (1- *algebra-discriminants-left*)))
+    (loop for root in (and (not (minusp *algebra-discriminants-left*))
+                           (remove-if-not #'algebra-square-root-p (algebra-kernels-of (list e))))
+          for (b c . more) = (algebra-powers-in e root)
+          for sign = (if (and c (null more) (algebra-real-p b) (algebra-real-p c))
+                         (algebra-balance-sign b c (cadr root))
+                         '$unknown)
+          unless (eq sign '$unknown) return sign
+          finally (return '$unknown))))
+
+(defun algebra-square-root-p (e)
+  (and (mexptp e) (eql (algebra-rational-number (caddr e)) 1/2)))
+
+(defun algebra-balance-sign (b c p)
+  "Of B + C*sqrt(P), B and C real."
+  (let ((side (algebra-sign c)))
+    (case (algebra-sign ($expand (sub (mul (power c 2) p) (power b 2))))
+      ($pos (if (member side '($pos $neg)) side '$unknown))
+      (($pz $zero) (case side ($pos '$pz) ($neg '$nz) (t '$unknown)))
+      ($neg (if (member (algebra-sign p) '($pos $pz $zero)) (algebra-sign b) '$unknown))
+      (t '$unknown))))

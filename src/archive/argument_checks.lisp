@@ -198,7 +198,7 @@
   "A constant is no integral."
   (let ((variables (cdr (gethash "variables" given))))
     (dolist (item (and variables (cdr (gethash "integrals" given))))
-      (let ((e (if (archive-equation-p item) (third item) item)))
+      (let ((e (archive-right-side item)))
         (unless (some (lambda (x) (archive-occurs-p x e)) variables)
           (core-error "integrals: ~a is a constant" (archive-argument-shown item)))))))
 
@@ -292,7 +292,7 @@ take; MOVING are the names that move in the archive of the call."
 (defun archive-listed-names (arguments)
   "Names that stand in lists, by themselves or on the left of an equation: what moves is one."
   (loop for argument in arguments
-        for value = (if (archive-equation-p argument) (caddr argument) argument)
+        for value = (archive-right-side argument)
         when (archive-list-p value)
           append (loop for item in (cdr value)
                        collect (if (archive-equation-p item) (cadr item) item))))

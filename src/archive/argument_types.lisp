@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/names" "archive/simplify" "archive/types"))
+  (core-require "archive/groups" "archive/keys" "archive/names" "archive/simplify"
+                "archive/types"))
 
 (defun archive-arguments-taken (arguments)
   "ARGUMENTS as the session gave them: what `rat' and `taylor' made in general form, and keys that
@@ -142,7 +143,7 @@ subscripts, and a formula may stand for a law of its own.")
 
 (defun archive-as-integrals (value)
   (dolist (item (archive-items value))
-    (archive-formula-inside (if (archive-equation-p item) (third item) item))))
+    (archive-formula-inside (archive-right-side item))))
 
 (defun archive-as-interval (value)
   "Two ends, after the name of the time or without it."

@@ -47,7 +47,7 @@ stand in [branches] or in graph."
   "Place of the value in a branch's fields: n1, n2, type, value.")
 
 (defun archive-row-fields (row)
-  (cdr (if (archive-equation-p row) (third row) row)))
+  (cdr (archive-right-side row)))
 
 (defun archive-row-labels (row)
   "What the branch may be called by: its label, or its value when that is a name."
@@ -73,7 +73,7 @@ stand in [branches] or in graph."
   "The values of couplings and transformers: M, the right side of k = 0.9, the ratio."
   (loop for row in (cdr rows)
         for value = (car (last (archive-row-fields row)))
-        collect (if (archive-equation-p value) (third value) value)))
+        collect (archive-right-side value)))
 
 (defun archive-row-own-state (row)
   "The state that the row of an inductor or a capacitor names, in a list."

@@ -84,12 +84,14 @@
   "Why KEY, which is absent, must be there, or nil: \"\", or the key that asks for it."
   (let ((default (archive-key-default key)))
     (cond ((eq default :required) "")
-          ((or (atom default) (eq (first default) :with)) nil)
-          ((eq (first default) :when)
-           (and (equal (archive-given-word group (second default)) (third default))
-                (format nil ", which ~a = ~a needs" (second default) (third default))))
-          ((archive-given-p group (second default)) nil)
-          (t (format nil ", and so is ~a" (second default))))))
+          ((atom default) nil)
+          (t (let ((other (archive-beside-other default)) (word (archive-beside-word default)))
+               (ecase (archive-beside-how default)
+                 (:with nil)
+                 (:when (and (equal (archive-given-word group other) word)
+                             (format nil ", which ~a = ~a needs" other word)))
+                 (:unless (unless (archive-given-p group other)
+                            (format nil ", and so is ~a" other)))))))))
 
 (defun archive-default-value (key)
   "The default of KEY as a checked value."
@@ -234,7 +236,7 @@ COUNTING is the key of [system] that gives the number."
 
 (defun archive-row-value (group k statement)
   (let* ((row (archive-statement-value statement))
-         (fields (if (archive-equation-p row) (third row) row)))
+         (fields (archive-right-side row)))
     (unless (archive-list-p fields)
       (core-fault (archive-group-section group) k
                   "row ~d must be a list such as [1, 2, L, L1, i1], found ~a" k

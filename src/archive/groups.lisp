@@ -49,6 +49,10 @@
                       (archive-row-called-p (archive-statement-value statement) key))
                     (archive-group-statements group)))))
 
+(defun archive-right-side (item)
+  "Of an equation, or of a row with a label; ITEM where it is none."
+  (if (archive-equation-p item) (third item) item))
+
 (defun archive-row-called-p (row name)
   "Whether NAME is the label or a field of ROW."
   (let ((symbol (core-symbol name)))

@@ -52,6 +52,11 @@
 
 (defstruct archive-key section name type default help question)
 
+(defstruct (archive-beside (:type list))
+  "A default that depends on OTHER, a key: HOW is :when (required where OTHER is WORD), :with (has a
+place beside OTHER only, by default WORD) or :unless (required without OTHER, else WORD, or not)."
+  how other word)
+
 (defstruct archive-sort
   "A sort of section: its NAME or the first word of it; its FORM, :one, :counted, :numbered, :named
 or :rows; its MEANING; as DETAIL the key that counts it, or what parses a row; its KEYS."
@@ -135,7 +140,8 @@ that is nil; or nil."
   "The default of KEY as text, or nil."
   (let ((default (archive-key-default key)))
     (cond ((stringp default) default)
-          ((and (consp default) (member (first default) '(:with :unless))) (third default)))))
+          ((and (consp default) (member (archive-beside-how default) '(:with :unless)))
+           (archive-beside-word default)))))
 
 (defun archive-overrulable-p (key)
   "Whether an option of a call may overrule KEY: all of [system] but the count of sections."
@@ -168,12 +174,11 @@ that is nil; or nil."
     (cond ((null default) "")
           ((eq default :required) "required")
           ((stringp default) (format nil "`~a`" default))
-          ((eq (first default) :when)
-           (format nil "required if `~a = ~a`" (second default) (third default)))
-          ((eq (first default) :with)
-           (format nil "`~a`, beside `~a`" (third default) (second default)))
-          (t (format nil "required without `~a`~@[, else `~a`~]" (second default)
-                     (third default))))))
+          (t (let ((other (archive-beside-other default)) (word (archive-beside-word default)))
+               (ecase (archive-beside-how default)
+                 (:when (format nil "required if `~a = ~a`" other word))
+                 (:with (format nil "`~a`, beside `~a`" word other))
+                 (:unless (format nil "required without `~a`~@[, else `~a`~]" other word))))))))
 
 (defun archive-print-keys-table (stream)
   "The kinds and the table in markdown, a part for each section."

@@ -8,15 +8,16 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "circuits/elements" "circuits/rates_by_branches"
-                "forms/dynamics" "forms/rates_integrals"))
+                "forms/dynamics" "forms/rates" "forms/rates_integrals"))
 
 (defun circuits-balance (run states)
   "Two values: the integral of RUN as forms-rates has it, and nil; or nil and why it is not given."
   (let ((terms (circuits-stored-terms run)) (fault (circuits-balance-fault run states)))
     (if fault
         (values nil (format nil "energy: ~a" fault))
-        (list '$energy (algebra-program-sum terms) (forms-size-of terms)
-              (circuits-taken-power run)))))
+        (make-forms-first-integral
+         :name '$energy :value (algebra-program-sum terms) :size (forms-size-of terms)
+         :power (circuits-taken-power run)))))
 
 (defun circuits-stored-terms (run)
   (flet ((half-square (value x)

@@ -8,9 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/elements" "circuits/graph" "circuits/element_laws"
+  (core-require "circuits/element_laws" "circuits/elements" "circuits/graph"
                 "circuits/rates_by_branches" "circuits/tree" "forms/agreement" "forms/fixed"
-                "forms/judge" "forms/program_judge" "forms/value"))
+                "forms/judge" "forms/program_judge" "forms/rates" "forms/value"))
 
 (defstruct circuits-trial
   run point   ; a random point, with the values of dependent states under their names
@@ -196,7 +196,7 @@
 ;;; What is stored grows by what M r - X leaves, and by what the other branches feed.
 
 (defun circuits-balance-pairs (trial balance)
-  (destructuring-bind (value power) (list (second balance) (fourth balance))
+  (let ((value (forms-first-integral-value balance)) (power (forms-first-integral-power balance)))
     (list (cons (first (forms-slopes-along (list (circuits-value-function value))
                                            (circuits-trial-point trial)
                                            (circuits-direction trial)))

@@ -8,14 +8,18 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/matrices"))
 
+(defun circuits-entry (place value) (list '(mlist simp) place value))
+(defun circuits-entry-place (entry) (second entry))
+(defun circuits-entry-value (entry) (third entry))
+
 (defun $circuits_places (row)
   "The places of ROW."
-  (cons '(mlist simp) (mapcar #'second (cdr row))))
+  (cons '(mlist simp) (mapcar #'circuits-entry-place (cdr row))))
 
 (defun $circuits_entry (row place)
   "The value in ROW at PLACE."
-  (let ((entry (find place (cdr row) :key #'second)))
-    (if entry (third entry) 0)))
+  (let ((entry (find place (cdr row) :key #'circuits-entry-place)))
+    (if entry (circuits-entry-value entry) 0)))
 
 (defun $circuits_along (row quantities)
   "The sum over ROW of its values times the QUANTITIES at their places."
@@ -35,7 +39,7 @@
   (let ((table (make-array count :initial-element '())))
     (loop for row in (cdr rows) for number from 1
           do (loop for (nil place value) in (cdr row)
-                   do (push (list '(mlist simp) number value) (aref table (1- place)))))
+                   do (push (circuits-entry number value) (aref table (1- place)))))
     (cons '(mlist simp)
           (loop for column across table collect (cons '(mlist simp) (reverse column))))))
 
@@ -63,16 +67,15 @@
 
 (defun circuits-row-table (row)
   (let ((table (make-hash-table)))
-    (dolist (entry (cdr row) table)
-      (let ((value (circuits-simpler (add (gethash (second entry) table 0) (third entry)))))
-        (if (zerop1 value)
-            (remhash (second entry) table)
-            (setf (gethash (second entry) table) value))))))
+    (loop for (nil place value) in (cdr row)
+          for sum = (circuits-simpler (add (gethash place table 0) value))
+          do (if (zerop1 sum) (remhash place table) (setf (gethash place table) sum)))
+    table))
 
 (defun circuits-row-of-table (table)
   (let ((entries '()))
-    (maphash (lambda (place value) (push (list '(mlist simp) place value) entries)) table)
-    (cons '(mlist simp) (sort entries #'< :key #'second))))
+    (maphash (lambda (place value) (push (circuits-entry place value) entries)) table)
+    (cons '(mlist simp) (sort entries #'< :key #'circuits-entry-place))))
 
 (defun circuits-subtract (row pivot factor)
   "ROW := ROW - FACTOR*PIVOT."
@@ -122,7 +125,9 @@ x_place + sum value*x = 0."
 
 (defun $circuits_consistent (rows places)
   "Whether nothing is left of ROWS after elimination of the PLACES."
-  (every (lambda (row) (null (cdr row))) (cdr (fourth ($circuits_elimination rows places)))))
+  (destructuring-bind (pivots reduced left) (cdr ($circuits_elimination rows places))
+    (declare (ignore pivots reduced))
+    (every (lambda (row) (null (cdr row))) (cdr left))))
 
 (defun $circuits_solution (matrix right)
   "x with MATRIX.x = RIGHT, or false where it is not determined."

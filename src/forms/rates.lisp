@@ -16,12 +16,15 @@ OUTPUTS ((name . value) ..) have X as `rates'. MASS: nil for the identity, else 
 factorisation, what is divided by, and the size that it is of where it is not small. SPLIT: nil, or
 the number n where x = (q, v), q' = v. CYCLIC: coordinates whose velocities are the output
 `quadratures'; MOMENTA: those of the states that are parameters in other forms. INERTIA: elements
-that depend on states that are no velocities, or on the time, where M does. INTEGRALS ((name value
-size power) ..): value plus the integral of power over the time is constant along every motion,
-and value is a sum, perhaps a small one, of parts as large as size. UNTOLD: what is not given of
-such, sentences."
+that depend on states that are no velocities, or on the time, where M does. INTEGRALS: a list of
+forms-first-integral; UNTOLD: what is not given of such, sentences."
   program states pairs outputs (mass nil) (guards nil) (angles nil) (split nil) (cyclic nil)
   (momenta nil) (inertia nil) (integrals nil) (untold nil))
+
+(defstruct (forms-first-integral (:type list))
+  "VALUE plus the integral of POWER over the time is constant along every motion; VALUE is a sum,
+perhaps a small one, of parts as large as SIZE. A list, for what is done to all elements alike."
+  name value size (power 0))
 
 (defun forms-put (elements pairs)
   "ELEMENTS with other elements for some inputs, PAIRS (name . element)."

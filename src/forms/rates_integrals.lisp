@@ -15,7 +15,7 @@
                 "forms/momenta_judge" "forms/program_judge" "forms/rates" "forms/value"))
 
 (defstruct forms-conserved
-  name value size (power 0) ; elements: see forms-rates; without the power of constraints that move
+  name value size (power 0) ; see forms-first-integral; without the power of constraints that move
   weights)                  ; y
 
 (defun forms-motion-integrals (dynamics names)
@@ -166,10 +166,12 @@ the power of constraints."
                       point))
   (loop for integral in integrals
         for name = (forms-conserved-name integral)
-        collect (list name (forms-conserved-value integral) (forms-conserved-size integral)
-                      (if (eq name '$energy)
-                          (algebra-program-add (forms-conserved-power integral) pushed)
-                          0))))
+        collect (make-forms-first-integral
+                 :name name :value (forms-conserved-value integral)
+                 :size (forms-conserved-size integral)
+                 :power (if (eq name '$energy)
+                            (algebra-program-add (forms-conserved-power integral) pushed)
+                            0))))
 
 (defun forms-integral-pairs (integrals direction left point)
   (let ((rates (acons '$t (forms-fixed 1)

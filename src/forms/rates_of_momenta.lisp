@@ -100,7 +100,8 @@
                                               constant))
          :guards (forms-dynamics-pivots dynamics)
          :inertia (forms-dynamics-inertia dynamics)
-         :integrals (remove-if (lambda (name) (rassoc name constant)) integrals :key #'first)
+         :integrals (remove-if (lambda (name) (rassoc name constant)) integrals
+                              :key #'forms-first-integral-name)
          :angles (forms-angles (kept (forms-task-q task)) elements))))))
 
 (defun forms-velocities-of-momenta (dynamics names)

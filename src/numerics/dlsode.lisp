@@ -147,20 +147,21 @@
 (defun numerics-dlsode-step (run call rates jacobian)
   "A step; nil, or what went wrong."
   (let* ((whole (numerics-dlsode-whole-work run)) (work (numerics-dlsode-real-work run))
-         (from (numerics-dlsode-time run))
-         (answer (multiple-value-list
-                  (funcall call rates (numerics-dlsode-size-vector run) (numerics-dlsode-y run)
-                           from (numerics-controls-end (numerics-dlsode-controls run))
-                           2 (numerics-dlsode-relative run) (numerics-dlsode-absolute run)
-                           5 (numerics-dlsode-state-flag run) 1
-                           work (length work) whole (length whole)
-                           jacobian (numerics-dlsode-method-flag run)))))
-    (numerics-dlsode-count run)
-    (setf (numerics-dlsode-time run) (nth 3 answer)
-          (numerics-dlsode-state-flag run) (nth 9 answer))
-    (cond ((minusp (nth 9 answer)) (numerics-dlsode-fault (nth 9 answer)))
-          ((notevery #'numerics-finite-p (numerics-dlsode-y run)) :not-finite)
-          ((= (nth 3 answer) from) :smallest-step))))
+         (from (numerics-dlsode-time run)))
+    (multiple-value-bind (f neq y time tout itol rtol atol itask state-flag)
+        (funcall call rates (numerics-dlsode-size-vector run) (numerics-dlsode-y run)
+                 from (numerics-controls-end (numerics-dlsode-controls run))
+                 2 (numerics-dlsode-relative run) (numerics-dlsode-absolute run)
+                 5 (numerics-dlsode-state-flag run) 1
+                 work (length work) whole (length whole)
+                 jacobian (numerics-dlsode-method-flag run))
+      (declare (ignore f neq y tout itol rtol atol itask))
+      (numerics-dlsode-count run)
+      (setf (numerics-dlsode-time run) time
+            (numerics-dlsode-state-flag run) state-flag)
+      (cond ((minusp state-flag) (numerics-dlsode-fault state-flag))
+            ((notevery #'numerics-finite-p (numerics-dlsode-y run)) :not-finite)
+            ((= time from) :smallest-step)))))
 
 (defun numerics-dlsode-count (run)
   (let ((counts (numerics-controls-counts (numerics-dlsode-controls run)))

@@ -10,7 +10,8 @@
                 "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
                 "forms/fixed" "forms/program_judge" "forms/rates"
                 "forms/value" "numerics/assumed_values" "numerics/directions"
-                "numerics/mass_index" "numerics/program" "numerics/rate_mass" "numerics/right_side_divisors"))
+                "numerics/mass_index" "numerics/program" "numerics/rate_mass"
+                "numerics/right_side_divisors"))
 
 ;;; Values.
 

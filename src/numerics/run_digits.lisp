@@ -154,10 +154,11 @@ any."
   (let* ((digits (numerics-wishes-digits (numerics-simulation-wishes run)))
          (integrals (numerics-told-integrals run)))
     (when (and integrals (cdr rows))
-      (setf (numerics-simulation-drifting run) (mapcar #'first integrals)
+      (setf (numerics-simulation-drifting run) (mapcar #'forms-first-integral-name integrals)
             (numerics-simulation-drifts run)
             (let ((function (numerics-big-values
-                             run (append (mapcar #'second integrals) (mapcar #'third integrals))
+                             run (append (mapcar #'forms-first-integral-value integrals)
+                                         (mapcar #'forms-first-integral-size integrals))
                              (+ digits 5))))
               (numerics-big-drifts (loop for row in (cdr rows)
                                          collect (mapcar #'core-bigfloat-rational

@@ -18,17 +18,20 @@ these.")
   "RUN looks at the drifts of those integrals that it can tell."
   (let ((integrals (numerics-told-integrals run)))
     (when integrals
-      (setf (numerics-simulation-drifting run) (mapcar #'first integrals)
+      (setf (numerics-simulation-drifting run) (mapcar #'forms-first-integral-name integrals)
             (numerics-simulation-drifts run)
             (numerics-drifts-of-integrals run integrals)))))
 
 (defun numerics-drifts-of-integrals (run integrals)
-  (let ((values (numerics-integral-routine run (append (mapcar #'second integrals)
-                                                       (mapcar #'third integrals))))
-        (powers (unless (every (lambda (integral) (eql (fourth integral) 0)) integrals)
-                  (numerics-integral-routine run (mapcar #'fourth integrals)))))
+  (let ((powers (mapcar #'forms-first-integral-power integrals))
+        (values (numerics-integral-routine
+                 run (append (mapcar #'forms-first-integral-value integrals)
+                             (mapcar #'forms-first-integral-size integrals)))))
     (numerics-with-masked-traps
-      (numerics-new-drifts values powers (length integrals) (numerics-simulation-moment run)
+      (numerics-new-drifts values
+                           (unless (every (lambda (power) (eql power 0)) powers)
+                             (numerics-integral-routine run powers))
+                           (length integrals) (numerics-simulation-moment run)
                            (numerics-simulation-state run)))))
 
 (defun numerics-told-integrals (run)
@@ -42,8 +45,10 @@ these.")
   "INTEGRAL without a power that vanishes, or under the name of a balance."
   (destructuring-bind (name value size power) integral
     (if (numerics-nought-p power)
-        (list name value size 0)
-        (list (core-symbol (format nil "~a_balance" (core-spelling name))) value size power))))
+        (make-forms-first-integral :name name :value value :size size)
+        (make-forms-first-integral
+         :name (core-symbol (format nil "~a_balance" (core-spelling name)))
+         :value value :size size :power power))))
 
 (defun numerics-integral-routine (run elements)
   (let ((program (numerics-simulation-program run)))
@@ -55,7 +60,8 @@ these.")
     (when why
       (setf (numerics-simulation-untold run)
             (append (numerics-simulation-untold run)
-                    (list (format nil "~a: ~a" (numerics-name-text (first integral)) why)))))
+                    (list (format nil "~a: ~a"
+                                  (numerics-name-text (forms-first-integral-name integral)) why)))))
     (null why)))
 
 (defun numerics-why-untold (run integral)

@@ -10,7 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_exchange" "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions"
+                "algebra/program_nodes" "numerics/decimals"
                 "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
                 "numerics/problem" "numerics/program" "numerics/routine" "numerics/sparse"
                 "numerics/step_control"))
@@ -161,12 +162,13 @@ it to the first zero."
     (when (and zeros (or (not guessed)
                          (< (numerics-missed switches step 0d0 (first (first zeros))) 1d0)))
       (let ((missed (numerics-missed-in-all switches step zeros)))
-        (when (> missed *numerics-most-missed*)
-          (let ((short (max (/ 0.1d0 missed) (numerics-shortest-share switches step)))
-                (share (first (first zeros))))
-            (if (and guessed (> share short))
-                (values (- share (* 0.5d0 short)) nil)
-                (numerics-cut-share switches step (first zeros) short))))))))
+        (destructuring-bind (share place) (first zeros)
+          (if (> missed *numerics-most-missed*)
+              (let ((short (max (/ 0.1d0 missed) (numerics-shortest-share switches step))))
+                (if (and guessed (> share short))
+                    (values (- share (* 0.5d0 short)) nil)
+                    (numerics-cut-share switches step (first zeros) short)))
+              (and (not guessed) (numerics-turned-back switches step share place))))))))
 
 (defun numerics-shortest-share (switches step)
   "Of STEP, that a method makes."

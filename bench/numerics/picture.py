@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The curves that compare.py kept, error over seconds of CPU, a panel a scene, as an SVG by gnuplot.
+    picture.py CURVES PICTURE"""
+import subprocess
+import sys
+from collections import defaultdict
+
+curves, picture = sys.argv[1:]
+scenes = defaultdict(lambda: defaultdict(list))
+with open(curves, encoding="ascii") as file:
+    for line in file:
+        scene, contender, _, scale, error, _, seconds = line.rstrip("\n").split("\t")
+        scenes[scene][contender].append((scale, seconds, error))
+contenders = sorted({contender for scene in scenes.values() for contender in scene},
+                    key=lambda title: ("this package" not in title, title))
+
+
+def block(points):
+    """Lines of a curve; a curve of another scale begins after an empty line."""
+    lines, before = [], points[0][0]
+    for scale, seconds, error in points:
+        lines += [""] if scale != before else []
+        lines.append(f"{seconds} {error}")
+        before = scale
+    return "\n".join(lines)
+
+
+def panel(number, scene):
+    data = [f"$curve{number}_{contenders.index(title)} << EOD\n{block(points)}\nEOD\n"
+            for title, points in scenes[scene].items()]
+    plots = ", ".join(f"$curve{number}_{place} using 1:2 with linespoints linetype {place + 1} "
+                      f"linewidth {3 if 'this package' in title else 1} title \"{title}\""
+                      for title, place in sorted((title, contenders.index(title)) for title in scenes[scene]))
+    return "".join(data) + f'set title "{scene}"\nplot {plots}\n'
+
+
+rows = (len(scenes) + 1) // 2
+script = f"""set terminal svg size 1500,{470 * rows} dynamic background "white" font ",11"
+set output "{picture}"
+set logscale xy
+set format xy "10^{{%T}}"
+set grid
+set key outside right top font ",9"
+set xlabel "seconds of CPU"
+set ylabel "error"
+set multiplot layout {rows},2
+""" + "".join(panel(number, scene) for number, scene in enumerate(scenes))
+if scenes:
+    subprocess.run(["gnuplot"], input=script, text=True, check=True)
