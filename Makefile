@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # tools/demo and tools/test need no make; these are their short names, and what is not run each time.
 
-.PHONY: demo test bench bench-peers bench-numerics report report-full report-references fuzz test-maxima doc dist
+.PHONY: demo test bench bench-peers bench-numerics bench-verdicts report report-full report-references fuzz test-maxima doc dist
 
 demo:
 	@tools/demo
@@ -23,6 +23,10 @@ bench-peers:
 # half an hour.
 bench-numerics:
 	@bench/numerics/run
+
+# Verdicts on stability by doubles, bigfloats and exactly, beside the truth: a page and a plot. Three minutes.
+bench-verdicts:
+	@bench/verdicts/run
 
 # The report of the package on itself: doc/numbers.md, doc/methods.md. Under five minutes; report-full within the hour.
 report:

@@ -154,6 +154,24 @@ at its end."
 
 ;;; Coefficients.
 
+(defun $test_gauss_hermite (share k last)
+  "[H_k, G_k], the exact factors of Hermite's polynomial on 0, 1/LAST, .., 1 at the rational SHARE."
+  (let* ((share (/ (second share) (third share))) (node (/ k last))
+         (others (loop for m to last unless (= m k) collect (/ m last)))
+         (lagrange (reduce #'* (mapcar (lambda (x) (/ (- share x) (- node x))) others)))
+         (slope (reduce #'+ (mapcar (lambda (x) (/ (- node x))) others)))
+         (g (* (- share node) lagrange lagrange)))
+    (gauss-list (mapcar #'gauss-rational (list (- (* lagrange lagrange) (* 2 slope g)) g)))))
+
+(defun $test_gauss_polynomial (last share degree)
+  "What the factors of a run miss at SHARE of x^DEGREE."
+  (flet ((power (x n) (if (< n 0) 0d0 (expt x n))))
+    (- (loop for k to last
+             for x = (/ (float k 1d0) last)
+             sum (multiple-value-bind (h g) (numerics-hermite-factors share k last)
+                   (+ (* h (power x degree)) (* g degree (power x (1- degree))))))
+       (power share degree))))
+
 (defun $test_gauss_foresight (stages)
   "The largest errors of foresight from two steps, made rational again: of t^k, k up to 2s - 3, and of
 the pattern that the errors of stages make, constant and linear in time."

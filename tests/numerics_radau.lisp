@@ -45,6 +45,21 @@ output at both ends of a step]: EXACT is the first state as a function of the ti
                   nil))
       (test-list between at-ends misfit))))
 
+(defun $test_radau_local_error (problem span start tolerance flow)
+  "The largest error of a step from where it begins, over the tolerance; FLOW(t, h, x) is exact."
+  (let ((largest 0))
+    (test-run 'numerics-radau problem span start tolerance '()
+              (lambda (step)
+                (let* ((time (test-moment (numerics-step-from step)))
+                       (exact (mfuncall flow time (- (test-moment (numerics-step-to step)) time)
+                                        (cons '(mlist simp)
+                                              (coerce (numerics-step-before step) 'list)))))
+                  (loop for x across (numerics-step-after step)
+                        for e in (cdr ($float exact))
+                        do (setq largest (max largest (/ (abs (- x e)) (1+ (abs e))))))
+                  nil)))
+    (/ largest tolerance)))
+
 (defun $test_radau_stopped (problem span start tolerance place)
   "The run, where the first state stops it above PLACE."
   (test-run 'numerics-radau problem span start tolerance '()

@@ -1,7 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
 ;;; Routh's array by divisions, as a textbook has it, in doubles or in the bigfloats of fpprec:
-;;; r_(k+1,j) = r_(k-1,j+1) - r_(k-1,1)*r_(k,j+1)/r_(k,1) (Gantmacher, The Theory of Matrices, XV, 3).
+;;; r_(k+1,j) = r_(k-1,j+1) - r_(k-1,1)*r_(k,j+1)/r_(k,1) (Gantmacher, The Theory of Matrices,
+;;; XV, 3).
 
 (in-package :maxima)
 

@@ -39,7 +39,7 @@
                      (caar (push (cons (gensym "ROOT") root) roots))))))
       (let ((hidden (named e)))
         (if roots
-            (simplify (sublis roots ($ratdisrep ($factor hidden))))
+            (resimplify (sublis roots ($ratdisrep ($factor hidden))))
             ($factor e))))))
 
 (defun algebra-large-number-in-p (e)

@@ -174,8 +174,8 @@ constraints in names inside."
         (setf (gethash (algebra-node-index node) values) (forms-node-value node #'value point)))
       (mapcar #'value elements))))
 
-;;; What vanishes at a random point vanishes everywhere, but for jumps and corners: a force that acts
-;;; from t = 5 on is 0 at most points. So the sign of u is any number s there, and |u| is s u.
+;;; What vanishes at a random point vanishes everywhere, but for jumps and corners: a force that
+;;; acts from t = 5 on is 0 at most points. So the sign of u is any number s there, and |u| is s u.
 
 (defvar *forms-signs-are-open* nil)
 

@@ -18,9 +18,8 @@ be constant along all motions, and not on some of them only."
   (loop for (nil name e) in (cdr given)
         for element = (first (core-attempt (lambda () (algebra-program-element e))))
         for integral = (and element
-                            (make-forms-first-integral
-                             :name name :value element
-                             :size (forms-size-of-expression e element)))
+                            (forms-first-integral name element
+                                                  (forms-size-of-expression e element)))
         do (cond ((null integral)
                   (push (format nil "~a: it has no program" (core-words (list name)))
                         (forms-rates-untold rates)))

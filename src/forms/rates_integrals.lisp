@@ -163,12 +163,11 @@ the power of constraints."
                       point))
   (loop for integral in integrals
         for name = (forms-conserved-name integral)
-        collect (make-forms-first-integral
-                 :name name :value (forms-conserved-value integral)
-                 :size (forms-conserved-size integral)
-                 :power (if (eq name '$energy)
-                            (algebra-program-add (forms-conserved-power integral) pushed)
-                            0))))
+        collect (forms-first-integral
+                 name (forms-conserved-value integral) (forms-conserved-size integral)
+                 (if (eq name '$energy)
+                     (algebra-program-add (forms-conserved-power integral) pushed)
+                     0))))
 
 (defun forms-integral-pairs (integrals direction left point)
   (let ((rates (acons '$t (forms-fixed 1)

@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Numbers for parameters against what is assumed of these, as l > 0: the equations may rest on it,
-;;; where the root of l^2 was taken. At the border, l = 0, they hold too, or divide by zero, which is
-;;; said elsewhere. See numerics-check-assumed.
+;;; Numbers for parameters against what is assumed of these, as l > 0: the equations may rest on
+;;; it, where the root of l^2 was taken. At the border, l = 0, they hold too, or divide by zero,
+;;; which is said elsewhere. See numerics-check-assumed.
 
 (in-package :maxima)
 
@@ -17,7 +17,8 @@
              (value (and element (numerics-value-with element pairs))))
         (when (and value (not (forms-negligible-p value))
                    (or (eq sign '$zero) (and (member sign '($pos $pz)) (minusp value))))
-          (core-error "~{~a = ~a~^, ~}: against ~a, which is assumed and on which the equations rest"
+          (core-error "~{~a = ~a~^, ~}: against ~a, which is assumed and on which the ~
+                       equations rest"
                       (numerics-words-of-values element pairs) (core-words (list fact))))))))
 
 (defun numerics-value-with (element pairs)

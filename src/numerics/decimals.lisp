@@ -24,7 +24,8 @@
         (scale-float (coerce (round (* x (expt 2 shift))) 'double-float) (- shift)))))
 
 (defun numerics-small-double (x)
-  "The same for a rational number X that may be too small for them: then 0, or too large: the largest."
+  "The same for a rational number X that may be too small for them: then 0, or too large: then the
+largest."
   (cond ((< (abs x) (expt 10 -300)) 0d0)
         ((< (abs x) (expt 10 300)) (numerics-rounded x))
         (t (* (signum x) (min (rational most-positive-double-float) (abs x)) 1d0))))

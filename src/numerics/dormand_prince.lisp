@@ -153,7 +153,8 @@ the end made it shorter."
 which RUN ends before it, or nil."
   (let ((inspect (numerics-controls-inspect (numerics-dopri-controls run))))
     (when inspect
-      (multiple-value-bind (share over) (funcall (the function inspect) (numerics-dopri-see run) nil)
+      (multiple-value-bind (share over)
+          (funcall (the function inspect) (numerics-dopri-see run) nil)
         (cond ((null share) nil)
               ((stringp share)
                (setf (numerics-dopri-about run) share)

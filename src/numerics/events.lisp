@@ -1,9 +1,10 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Events: zeros of functions g(t, x) along a run, between its steps by dense output. Each step is
-;;; looked at in 17 places, and in parts where they do not show what is between them. Between two of
-;;; them a change of sign is a crossing, found to the last place of t; where |g| falls at one and rises
-;;; at the other, g may touch 0 or cross it twice, and its least value decides. A run that starts at a zero does not meet it there. Directions are
-;;; those along the run. Look first at numerics-see-events.
+;;; Events: zeros of functions g(t, x) along a run, between its steps by dense output. Each step
+;;; is looked at in 17 places, and in parts where they do not show what is between them. Between
+;;; two of them a change of sign is a crossing, found to the last place of t; where |g| falls at
+;;; one and rises at the other, g may touch 0 or cross it twice, and its least value decides. A
+;;; run that starts at a zero does not meet it there. Directions are those along the run. Look
+;;; first at numerics-see-events.
 
 (in-package :maxima)
 
@@ -146,9 +147,10 @@ which it goes."
         (t (sum 3d0 -16d0 36d0 -48d0 25d0))))))
 
 (defun numerics-may-turn-p (events place side k)
-  "Whether |g| falls before the sample K and rises after the next, both so fast that it may come to 0
-at a corner between them."
-  (flet ((rise (k) (* side (- (numerics-sample events place (1+ k)) (numerics-sample events place k)))))
+  "Whether |g| falls before the sample K and rises after the next, both so fast that it may come to
+0 at a corner between them."
+  (flet ((rise (k)
+           (* side (- (numerics-sample events place (1+ k)) (numerics-sample events place k)))))
     (let* ((falls (if (> k 0) (- (rise (1- k))) (rise 1)))
            (rises (if (< k 15) (rise (1+ k)) falls)))
       (and (> falls 0) (> rises 0)
@@ -246,7 +248,8 @@ has no value there is no zero, and it begins anew after that."
 ;;; is rounding, or a jump.
 
 (defparameter *numerics-most-halvings* 10)
-(defparameter *numerics-share-unseen* 0.02d0 "Of the range of the samples, that a cubic may be off.")
+(defparameter *numerics-share-unseen* 0.02d0
+  "Of the range of the samples, that a cubic may be off.")
 
 (defun numerics-cubic-between (events place k)
   "The cubic through the samples K - 1, .. K + 2 of the function PLACE, 0.41 of the way from K on."

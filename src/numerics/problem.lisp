@@ -86,10 +86,10 @@
   (largest-step nil)
   (most-steps nil)     ; nil: no limit
   (mends-start nil)    ; the algebraic part of an inconsistent start is mended, by implicit methods
-  (inspect nil)        ; nil, or (step guessed): before a step of chosen length is accepted, or where
-                       ; it cannot be made and is GUESSED from the one before, nil, or the share
-                       ; of it that may be, and whether that leads over a jump; or a sentence that
-                       ; says why the run ends there
+  (inspect nil)        ; nil, or (step guessed): before a step of chosen length is accepted, or
+                       ; where it cannot be made and is GUESSED from the one before, nil, or the
+                       ; share of it that may be, and whether that leads over a jump; or a sentence
+                       ; that says why the run ends there
   (looks-for nil)      ; :stiffness, or :much-stiffness, of very many steps (explicit methods),
                        ; :end-of-stiffness (implicit ones): see auto
   (counts (make-numerics-counts)))

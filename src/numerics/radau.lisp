@@ -169,8 +169,8 @@
           (t (numerics-radau-accept run observer)))))
 
 (defun numerics-radau-look-ahead (run)
-  "The slope at the end of the step, unless the run ends there with stages that were looked at twice;
-whether it is finite."
+  "The slope at the end of the step, unless the run ends there with stages that were looked at
+twice; whether it is finite."
   (numerics-with-radau (run moment later step after ahead last iterations)
     (or (and last (> iterations 1))
         (progn (replace later moment)

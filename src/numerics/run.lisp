@@ -100,6 +100,7 @@ yet."
           (numerics-simulation-drifting again) nil
           (numerics-simulation-outcome again) nil
           (numerics-simulation-lost again) nil
+          (numerics-simulation-shares again) (copy-seq (numerics-simulation-shares run))
           (numerics-simulation-fault again) nil
           (numerics-simulation-constraints again)
           (numerics-fresh-constraints (numerics-simulation-constraints run))

@@ -7,7 +7,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "forms/program_judge" "forms/rates" "forms/value"
-                "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program" "numerics/routine" "numerics/run" "numerics/run_options"))
+                "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program"
+                "numerics/routine" "numerics/run" "numerics/run_options"))
 
 (defparameter *numerics-states-of-balances* 40
   "Explicit methods with more states would take as long for the states between their steps as for
@@ -44,10 +45,9 @@ these.")
   "INTEGRAL without a power that vanishes, or under the name of a balance."
   (destructuring-bind (name value size power) integral
     (if (forms-nought-p (list power) (forms-new-point t))
-        (make-forms-first-integral :name name :value value :size size)
-        (make-forms-first-integral
-         :name (core-symbol (format nil "~a_balance" (core-spelling name)))
-         :value value :size size :power power))))
+        (forms-first-integral name value size)
+        (forms-first-integral (core-symbol (format nil "~a_balance" (core-spelling name)))
+                              value size power))))
 
 (defun numerics-integral-routine (run elements)
   (let ((program (numerics-simulation-program run)))

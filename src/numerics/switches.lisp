@@ -10,7 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_exchange" "algebra/program_from_expressions" "algebra/program_nodes" "numerics/decimals"
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions"
+                "algebra/program_nodes" "numerics/decimals"
                 "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
                 "numerics/problem" "numerics/program" "numerics/routine" "numerics/sparse"
                 "numerics/step_control"))

@@ -18,7 +18,7 @@
   rates          ; series of X
   solve          ; nil, or the function of a list of X_k: that of M^-1 X_k
   rules          ; of the nodes that move, in their order
-  corners        ; (text y . x): series say nothing of what is past y = 0 where x is nil, or negative
+  corners        ; (text y . x): nothing is said of what is past y = 0 where x is nil, or negative
   (series (make-hash-table))                 ; index of a node -> its series
   (partners (make-hash-table :test #'equal))) ; (operation part) -> series beside that of a node
 
@@ -106,8 +106,9 @@
        (numerics-pair-rules operation out x (algebra-part-key left) expansion))
       (t (numerics-function-rules operation out x expansion)))))
 
-;;; The series of a function may go on smoothly past a place where the function itself does not: sqrt
-;;; of a square that passes 0, asin(sin(t)) past %pi/2, exp(-1/t^2), all of whose terms vanish at 0.
+;;; The series of a function may go on smoothly past a place where the function itself does not:
+;;; sqrt of a square that passes 0, asin(sin(t)) past %pi/2, exp(-1/t^2), all of whose terms vanish
+;;; at 0.
 
 (defun numerics-note-corner (expansion text y &optional x)
   "No step goes past a zero of the series Y where the series X, if there is one, is negative; TEXT
