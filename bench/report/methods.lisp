@@ -51,16 +51,16 @@
 
 ;;; Stiff scenes and others in words
 
-(defun report-stiff-p (result)
-  "Whether the explicit method takes more than three times as long as the implicit one, or fails, at the first of the errors which
-that one reaches."
-  (let* ((error (find-if (lambda (error) (report-time-to error result '$radau)) *report-errors*))
-         (implicit (and error (report-time-to error result '$radau)))
-         (explicit (and error (report-time-to error result '$dop853))))
-    (and implicit (or (null explicit) (> explicit (* 3 implicit))))))
-
 (defun report-fails-p (method result)
   (notany #'report-reached-p (report-rows-of result method)))
+
+(defun report-stiff-p (result)
+  "Whether the explicit method takes more than three times as long as the implicit one, at the first of the errors which that one
+reaches; or fails, where the implicit one does not."
+  (let* ((error (find-if (lambda (error) (report-time-to error result '$radau)) *report-errors*))
+         (explicit (and error (report-time-to error result '$dop853))))
+    (cond ((report-fails-p '$dop853 result) (not (report-fails-p '$radau result)))
+          (error (or (null explicit) (> explicit (* 3 (report-time-to error result '$radau))))))))
 
 (defun report-middle (numbers)
   (let ((sorted (sort (remove nil numbers) #'<)))
@@ -70,8 +70,9 @@ that one reaches."
   "What METHOD does on RESULTS: a text."
   (let ((failing (count-if (lambda (result) (report-fails-p method result)) results))
         (middle (report-middle (report-quotients method results))))
-    (format nil "~a ~:[~;comes to the end in ~d of them~:[~;, and ~]~]~@[takes ~,1f times as long as the quickest in the middle~]"
-            (report-name method) (plusp failing) (- (length results) failing) middle middle)))
+    (format nil "~a~@[ comes to the end in ~d of them~]~:[~; and~]~@[ takes ~,1f times as long as the quickest~]"
+            (report-name method) (and (plusp failing) (- (length results) failing))
+            (and (plusp failing) middle) middle)))
 
 (defun report-class (out title results)
   (when results
@@ -81,7 +82,7 @@ that one reaches."
                     (remove-duplicates (loop for result in results append (report-methods result)) :from-end t)))))
 
 (defun report-classes (out results)
-  (format out "~%## Stiff or not~%~%")
+  (format out "~%## Stiff or not~%~%The middle of the quotients of times, over the errors that a method reaches.~%~%")
   (report-class out "Stiff" (remove-if-not #'report-stiff-p results))
   (report-class out "Not stiff" (remove-if #'report-stiff-p results)))
 

@@ -3,9 +3,17 @@
 
 (in-package :maxima)
 
-(core-require "numerics/native")
+(core-require "core/watch" "numerics/native")
 
-(defun $report_seconds () (/ (round (* 10 (numerics-working-seconds))) 10d0))
+(defun $report_count_own_seconds ()
+  "From now on seconds are those of CPU of this process, so that others on the machine do not count."
+  (setf (symbol-function 'core-clock)
+        (lambda () (/ (get-internal-run-time) (coerce internal-time-units-per-second 'double-float))))
+  '$done)
+
+(defun $report_seconds ()
+  "By the clock on the wall, whole ones."
+  (round (get-internal-real-time) internal-time-units-per-second))
 
 (defun $report_say (&rest words)
   (format *error-output* "~&dynarch: ~{~a~}~%" (mapcar #'$report_word words))

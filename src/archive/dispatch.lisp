@@ -146,7 +146,6 @@ none."
     (archive-give-options call options)
     (archive-check-arguments (archive-call-given call) (archive-call-kind call)
                              (mapcar #'car (archive-moving-names (archive-description archive))))
-    (archive-warn-of-strange-numbers call options)
     (setq *core-place* (lambda (section key) (archive-place archive section key)))
     call))
 
@@ -156,43 +155,20 @@ none."
     (archive-give-positional call (cdr form) positional)
     (archive-give-options call options)
     (archive-check-arguments (archive-call-given call) (car form))
-    (archive-warn-of-strange-numbers call options)
     (archive-run call)))
 
-(defun archive-warn-of-strange-numbers (call options)
-  "A line where OPTIONS of a run give a number to a name that stands nowhere else; momenta may."
-  (when (and (core-public-numerical (archive-call-public call))
-             (not (gethash "function" (archive-call-given call))))
-    (let ((names (archive-call-names call '("values"))))
-      (dolist (equation options)
-        (when (and (member (archive-option-name equation) '("parameters" "values") :test #'string=)
-                   (archive-list-p (caddr equation)))
-          (dolist (name (archive-lefts (caddr equation)))
-            (unless (member name names)
-              (archive-warn-of-strange-number name names))))))))
-
-(defun archive-warn-of-strange-number (name names)
-  (let ((words (core-words (list name))))
-    (core-warn "~a, which has a number, stands nowhere in the system~@[; did you mean ~a?~]" words
-               (and (> (length words) 1)
-                    (core-nearest words (mapcar (lambda (other) (core-words (list other)))
-                                                names))))))
-
-(defun archive-call-names (call &optional without)
-  "All names in what CALL was given, WITHOUT some of its options, and in its description; heads of
-functions too."
+(defun archive-call-names (call)
+  "All names in what CALL was given and in its description, heads of functions too."
   (let ((names '()))
     (flet ((note (part)
              (cond ((archive-symbol-p part) (pushnew part names))
                    ((and (consp part) (consp (car part)) (archive-symbol-p (caar part)))
                     (pushnew (caar part) names)))))
       (loop for name being the hash-keys of (archive-call-given call) using (hash-value value)
-            do (unless (or (archive-word-key-p name) (member name without :test #'string=))
-                 (archive-map-parts #'note value)))
+            do (unless (archive-word-key-p name) (archive-map-parts #'note value)))
       (when (archive-call-archive call)
         (dolist (entry (cdr (archive-description (archive-call-archive call))))
-          (unless (let ((key (archive-key-text (second entry))))
-                    (or (archive-word-key-p key) (member key without :test #'equal)))
+          (unless (archive-word-key-p (archive-key-text (second entry)))
             (archive-map-parts #'note entry)))))
     names))
 

@@ -5,8 +5,8 @@
 ;;; from here; plain data, no Maxima in it. A row is (name type default help question), the help a
 ;;; format's control without arguments. The default is text as it would stand in the archive; nil
 ;;; where the key may be absent; :required; (:when key value) required if that key has that value;
-;;; (:unless key [text]) required if that is absent, else of the default text; (:with key text) a
-;;; default that makes sense beside that key only.
+;;; (:unless key text) required if that is absent, else of the default text or nil; (:with key
+;;; text) a default that makes sense beside that key only.
 
 (in-package :maxima)
 
@@ -52,10 +52,13 @@
 
 (defstruct archive-key section name type default help question)
 
-(defstruct (archive-beside (:type list))
-  "A default that depends on OTHER, a key: HOW is :when (required where OTHER is WORD), :with (has a
-place beside OTHER only, by default WORD) or :unless (required without OTHER, else WORD, or not)."
-  how other word)
+;; A default that depends on another key: (how other word), how :when (required where the other is
+;; that word), :with (has a place beside the other only, by default the word) or :unless (required
+;; without the other, else the word, or nothing).
+
+(defun archive-beside-how (default) (first default))
+(defun archive-beside-other (default) (second default))
+(defun archive-beside-word (default) (third default))
 
 (defstruct archive-sort
   "A sort of section: its NAME or the first word of it; its FORM, :one, :counted, :numbered, :named

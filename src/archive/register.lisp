@@ -96,7 +96,7 @@
     (("spring" :numbered "a spring, a damper, or both")
      ("angle" :expression nil
       "the angle it acts on, for a spring that turns" "Angle that it acts on, if it turns")
-     ("between" :pair (:unless "angle")
+     ("between" :pair (:unless "angle" nil)
       "the two bodies; 0 is the fixed axes" "Bodies that it joins")
      ("points" :points (:with "between" "[[0, 0, 0], [0, 0, 0]]")
       "its ends, each in the axes of its body" "Ends, in the bodies' axes")
@@ -122,7 +122,7 @@
   :first
   '(("coordinates" :names :required "generalized coordinates" "Coordinates"))
   :keys
-  `(("lagrangian" :expression (:unless "hamiltonian")
+  `(("lagrangian" :expression (:unless "hamiltonian" nil)
      "Lagrange's function of coordinates and velocities"
      "Lagrangian")
     ("hamiltonian" :expression nil
@@ -179,7 +179,7 @@
   :first
   '(("algebra" :algebra nil
      "a Lie algebra; its variables are those below, in this order" "Lie algebra")
-    ("bracket" :skew (:unless "algebra")
+    ("bracket" :skew (:unless "algebra" nil)
      "the matrix of brackets {x_i, x_j}, instead of an algebra" "Matrix of brackets")
     ("variables" :names (:unless "algebra" "[M1, M2, M3, g1, g2, g3]")
      "the variables" "Variables"))

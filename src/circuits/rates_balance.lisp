@@ -15,9 +15,8 @@
   (let ((terms (circuits-stored-terms run)) (fault (circuits-balance-fault run states)))
     (if fault
         (values nil (format nil "energy: ~a" fault))
-        (make-forms-first-integral
-         :name '$energy :value (algebra-program-sum terms) :size (forms-size-of terms)
-         :power (circuits-taken-power run)))))
+        (forms-first-integral '$energy (algebra-program-sum terms) (forms-size-of terms)
+                              (circuits-taken-power run)))))
 
 (defun circuits-stored-terms (run)
   (flet ((half-square (value x)

@@ -174,10 +174,27 @@ constraints in names inside."
         (setf (gethash (algebra-node-index node) values) (forms-node-value node #'value point)))
       (mapcar #'value elements))))
 
+;;; What vanishes at a random point vanishes everywhere, but for jumps and corners: a force that
+;;; acts from t = 5 on is 0 at most points. So the sign of u is any number s there, and |u| is s u.
+
+(defvar *forms-signs-are-open* nil)
+
+(defun forms-program-values-on-all-sides (elements point)
+  "Values of ELEMENTS that vanish only where these do on all sides of jumps and corners; nil where
+there are none."
+  (let ((*forms-signs-are-open* t))
+    (catch 'forms-no-value (forms-program-values elements point))))
+
+(defun forms-sign-value (argument x)
+  "The sign of ARGUMENT, whose value is X."
+  (if (and *forms-signs-are-open* (algebra-node-p argument))
+      (forms-random-value (intern (format nil "sign~d" (algebra-node-index argument)) :maxima))
+      (ash (signum x) forms-digits)))
+
 (defun forms-nought-p (elements point)
   "Whether all ELEMENTS vanish."
   (or (every (lambda (element) (eql element 0)) elements)
-      (let ((values (catch 'forms-no-value (forms-program-values elements point))))
+      (let ((values (forms-program-values-on-all-sides elements point)))
         (and values (every #'forms-negligible-p values)))))
 
 (defun forms-node-value (node value point)
@@ -203,6 +220,7 @@ constraints in names inside."
         (:exponential (value 'mexpt (forms-symbol-value '$%e point) (funcall x)))
         (:power (value 'mexpt (funcall x) (funcall y)))
         (:polar-angle (value '$atan2 (funcall x) (funcall y)))
-        (:absolute (abs (funcall x)))
-        (:sign (ash (signum (funcall x)) forms-digits))
+        (:absolute (forms-fixed-times (forms-sign-value (algebra-node-left node) (funcall x))
+                                      (funcall x)))
+        (:sign (forms-sign-value (algebra-node-left node) (funcall x)))
         (t (value (algebra-function-operator (algebra-function-of operation)) (funcall x)))))))

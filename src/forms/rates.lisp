@@ -21,10 +21,15 @@ forms-first-integral; UNTOLD: what is not given of such, sentences."
   program states pairs outputs (mass nil) (guards nil) (angles nil) (split nil) (cyclic nil)
   (momenta nil) (inertia nil) (integrals nil) (untold nil))
 
-(defstruct (forms-first-integral (:type list))
+(defun forms-first-integral (name value size &optional (power 0))
   "VALUE plus the integral of POWER over the time is constant along every motion; VALUE is a sum,
 perhaps a small one, of parts as large as SIZE. A list, for what is done to all elements alike."
-  name value size (power 0))
+  (list name value size power))
+
+(defun forms-first-integral-name (integral) (first integral))
+(defun forms-first-integral-value (integral) (second integral))
+(defun forms-first-integral-size (integral) (third integral))
+(defun forms-first-integral-power (integral) (fourth integral))
 
 (defun forms-put (elements pairs)
   "ELEMENTS with other elements for some inputs, PAIRS (name . element)."

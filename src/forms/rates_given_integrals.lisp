@@ -18,9 +18,8 @@ be constant along all motions, and not on some of them only."
   (loop for (nil name e) in (cdr given)
         for element = (first (core-attempt (lambda () (algebra-program-element e))))
         for integral = (and element
-                            (make-forms-first-integral
-                             :name name :value element
-                             :size (forms-size-of-expression e element)))
+                            (forms-first-integral name element
+                                                  (forms-size-of-expression e element)))
         do (cond ((null integral)
                   (push (format nil "~a: it has no program" (core-words (list name)))
                         (forms-rates-untold rates)))
@@ -44,13 +43,11 @@ be constant along all motions, and not on some of them only."
   (let ((point (forms-new-point t)) (output (assoc '$rates (forms-rates-outputs rates))))
     (or (assoc '$velocities (forms-rates-outputs rates))
         (> (length (forms-rates-states rates)) *forms-most-judged-states*)
-        (let ((item (forms-numbers-at (forms-integral-row rates element) point))
-              (rows (mapcar (lambda (row x) (forms-numbers-at (append row (list x)) point))
+        (let ((item (forms-program-values-on-all-sides (forms-integral-row rates element) point))
+              (rows (mapcar (lambda (row x)
+                              (forms-program-values-on-all-sides (append row (list x)) point))
                             (forms-full-mass rates) (cdr (cdr output)))))
           (or (null item) (some #'null rows) (forms-in-rows-p item rows))))))
-
-(defun forms-numbers-at (elements point)
-  (catch 'forms-no-value (forms-program-values elements point)))
 
 (defun forms-integral-row (rates element)
   "(dV/dx_1, .., -dV/dt)"

@@ -85,10 +85,7 @@
                          (mapcar #'algebra-program-subtract (forms-program-terms-forces terms)
                                  (forms-program-terms-damping terms))
                          (mapcar #'forms-bond-row (forms-dynamics-bonds dynamics))))
-         (found (catch 'forms-no-value
-                  (forms-program-values (loop for column in (cons momenta columns)
-                                              append column)
-                                        point))))
+         (found (forms-program-values-on-all-sides (apply #'append momenta columns) point)))
     (loop with n = (length momenta)
           for k below n
           collect (and found
@@ -166,12 +163,11 @@ the power of constraints."
                       point))
   (loop for integral in integrals
         for name = (forms-conserved-name integral)
-        collect (make-forms-first-integral
-                 :name name :value (forms-conserved-value integral)
-                 :size (forms-conserved-size integral)
-                 :power (if (eq name '$energy)
-                            (algebra-program-add (forms-conserved-power integral) pushed)
-                            0))))
+        collect (forms-first-integral
+                 name (forms-conserved-value integral) (forms-conserved-size integral)
+                 (if (eq name '$energy)
+                     (algebra-program-add (forms-conserved-power integral) pushed)
+                     0))))
 
 (defun forms-integral-pairs (integrals direction left point)
   (let ((rates (acons '$t (forms-fixed 1)

@@ -14,7 +14,7 @@
   (core-require "numerics/problem" "numerics/linear_solver_matrix" "numerics/linear_solver_order"
                 "numerics/linear_solver_scales" "numerics/linear_solver_elimination"
                 "numerics/linear_solver_klu"
-                "numerics/null_space"))
+                "numerics/sparse"))
 
 (defparameter *numerics-most-without-klu* 200
   "Unknowns of a sparse system that KLU is not asked for.")

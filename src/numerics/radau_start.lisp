@@ -9,9 +9,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "numerics/problem" "numerics/step_control" "numerics/sparse"
-                "numerics/null_space" "numerics/linear_solver"
-                "numerics/linear_solver_matrix"
-                "numerics/radau_run" "numerics/radau_stiffness"))
+                "numerics/linear_solver" "numerics/linear_solver_matrix" "numerics/radau_run"
+                "numerics/radau_stiffness"))
 
 (defun numerics-radau-begin (run)
   "The status in which RUN ends before its first step, or nil."

@@ -9,7 +9,7 @@
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
                 "forms/fixed" "forms/program_judge" "forms/rates"
-                "forms/value" "numerics/assumed_values" "numerics/directions"
+                "forms/value" "numerics/assumed_values" "numerics/jacobian"
                 "numerics/mass_index" "numerics/program" "numerics/rate_mass"
                 "numerics/right_side_divisors"))
 

@@ -5,7 +5,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"
-                "algebra/program_record" "numerics/colouring"
+                "algebra/program_record" "numerics/sparse"
                 "numerics/jacobian" "numerics/plan" "numerics/problem" "numerics/program"
                 "numerics/routine"))
 

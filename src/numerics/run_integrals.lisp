@@ -6,9 +6,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "forms/rates"
+  (core-require "algebra/program_nodes" "forms/program_judge" "forms/rates" "forms/value"
                 "numerics/drifts" "numerics/native" "numerics/problem" "numerics/program"
-                "numerics/rate_program" "numerics/routine" "numerics/run" "numerics/run_options"))
+                "numerics/routine" "numerics/run" "numerics/run_options"))
 
 (defparameter *numerics-states-of-balances* 40
   "Explicit methods with more states would take as long for the states between their steps as for
@@ -44,11 +44,10 @@ these.")
 (defun numerics-settled-integral (integral)
   "INTEGRAL without a power that vanishes, or under the name of a balance."
   (destructuring-bind (name value size power) integral
-    (if (numerics-nought-p power)
-        (make-forms-first-integral :name name :value value :size size)
-        (make-forms-first-integral
-         :name (core-symbol (format nil "~a_balance" (core-spelling name)))
-         :value value :size size :power power))))
+    (if (forms-nought-p (list power) (forms-new-point t))
+        (forms-first-integral name value size)
+        (forms-first-integral (core-symbol (format nil "~a_balance" (core-spelling name)))
+                              value size power))))
 
 (defun numerics-integral-routine (run elements)
   (let ((program (numerics-simulation-program run)))
