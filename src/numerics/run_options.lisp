@@ -148,5 +148,7 @@ QUADRATURES follow from their momenta."
 (defun numerics-refuse-start-name (name names)
   (let* ((spelled (core-words (list name)))
          (near (core-nearest spelled (mapcar (lambda (e) (core-words (list e))) names))))
-    (core-error "~a is no state of this system~@[; did you mean ~a?~]; the states are ~{~a~^, ~}"
-                spelled near (mapcar (lambda (e) (core-words (list e))) names))))
+    (core-error "~a is no state of this system~@[; did you mean ~a?~]; the states are ~{~a~^, ~}~
+                 ~:[~;, without velocities: give a start in these~]"
+                spelled near (mapcar (lambda (e) (core-words (list e))) names)
+                (and (numerics-velocity-p name) (notany #'numerics-velocity-p names)))))
