@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 798176283 92963
+;;; Made by tools/doc; checksum of doc/*.texi: 2122836574 93088
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -50,11 +50,11 @@
 ("RouthLyapunov" . ("dynarch.info" 70631 2117 "Definitions for Analysis"))
 ("LinearIntegrals" . ("dynarch.info" 72749 654 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 73404 702 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 74385 6258 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 80644 3547 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 84192 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 86155 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 90873 3304 "Definitions for Numerics"))
+("Simulate" . ("dynarch.info" 74385 6393 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 80779 3547 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 84327 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 86290 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 91008 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -64,6 +64,6 @@
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 7926))
 ("Definitions for Analysis" . ("dynarch.info" 47581 26525))
-("Definitions for Numerics" . ("dynarch.info" 74241 19936))
+("Definitions for Numerics" . ("dynarch.info" 74241 20071))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

@@ -41,8 +41,8 @@
     (flet ((share (test) (format nil "~d" (count-if test there))))
       (list (report-name method) (format nil "~d" count) (format nil "~d" (length there))
             (share (lambda (q) (<= q 1))) (share (lambda (q) (<= q 3/2))) (share (lambda (q) (<= q 5)))
-            (if there (format nil "~,1f" (nth (floor (length there) 2) there)) "")
-            (if there (format nil "~,1f" (car (last there))) "")))))
+            (if there (report-quotient (nth (floor (length there) 2) there)) "")
+            (if there (report-quotient (car (last there))) "")))))
 
 (defun report-standings (out results)
   (report-table out '("method" " asked" " reached" " quickest" " within 1.5" " within 5" " middle" " worst")
@@ -70,9 +70,11 @@ reaches; or fails, where the implicit one does not."
   "What METHOD does on RESULTS: a text."
   (let ((failing (count-if (lambda (result) (report-fails-p method result)) results))
         (middle (report-middle (report-quotients method results))))
-    (format nil "~a~@[ comes to the end in ~d of them~]~:[~; and~]~@[ takes ~,1f times as long as the quickest~]"
+    (format nil "~a~@[ comes to the end in ~d of them~]~:[~; and~]~@[ takes ~a times as long as the quickest~]"
             (report-name method) (and (plusp failing) (- (length results) failing))
-            (and (plusp failing) middle) middle)))
+            (and (plusp failing) middle) (and middle (report-quotient middle)))))
+
+(defun report-quotient (x) (format nil (if (< x 10) "~,1f" "~d") (if (< x 10) x (round x))))
 
 (defun report-class (out title results)
   (when results

@@ -37,7 +37,8 @@
          (behind (remove-if (lambda (comparison) (report-ours-p (second comparison))) comparisons)))
     (format out "~%## Where another package is quicker~%~%")
     (if comparisons
-        (format out "In ~d of the ~d comparisons at equal error in doc/bench.md:~%~%" (length behind) (length comparisons))
+        (format out "In ~d of the ~d comparisons at equal error in doc/bench.md~:[.~;:~]~%~%" (length behind)
+                (length comparisons) behind)
         (format out "doc/bench.md has no comparisons at equal error; `make bench-peers` makes them.~%"))
     (loop for (title first) in behind
           do (format out "* ~a: ~a; our time over it ~a~%" title (first first) (car (last first))))))

@@ -180,6 +180,10 @@ says no at the end."
   "The file NAME has BYTES as its content afterwards, or is what it was: nil when UNCHANGED-P
 said no, else an error."
   (archive-ignore-size-limit)
+  (when (> (length bytes) *archive-file-size*)
+    (core-error "it would have ~d bytes, and archives of at most ~d bytes are read; ask for less, ~
+                 such as fewer points, or give save = false"
+                (length bytes) *archive-file-size*))
   (when (archive-exists-p name)
     (unless (archive-may-write-p name) (core-error "it is read-only"))
     (when (archive-hard-linked-p name)

@@ -9,8 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/back_to_constraints" "numerics/events" "numerics/problem"
-                "numerics/small_systems" "numerics/zeros_between"))
+  (core-require "numerics/back_to_constraints" "numerics/event_samples" "numerics/events"
+                "numerics/problem" "numerics/small_systems" "numerics/zeros_between"))
 
 (defstruct numerics-dead-points
   constraints least         ; what is less than LEAST is a dead point

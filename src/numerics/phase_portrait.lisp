@@ -119,7 +119,11 @@
               (numerics-plane-axes (numerics-portrait-plane portrait)))
     (let ((about (numerics-rests-about (numerics-portrait-rests portrait))))
       (apply #'numerics-preamble horizontal vertical
-             (when about (list (numerics-title-line (reverse about))))))))
+             (append (loop for axis in (numerics-plane-axes (numerics-portrait-plane portrait))
+                           for name in '("x" "y")
+                           append (numerics-small-range-lines name (numerics-at-place axis 0d0)
+                                                              (numerics-at-place axis 1d0)))
+                     (when about (list (numerics-title-line (reverse about)))))))))
 
 (defun numerics-title-line (sentences)
   "SENTENCES as a title, without the reasons that follow a colon."

@@ -66,6 +66,12 @@
                set key outside top center horizontal noenhanced~%~{~a~%~}"
           (numerics-gnuplot-text horizontal) (numerics-gnuplot-text vertical) more))
 
+(defun numerics-small-range-lines (axis low high)
+  "A line of gnuplot for an AXIS so short that draw takes its ends for equal and shows 0.01 about
+them; none else."
+  (when (< 0d0 (- high low) 1d-12)
+    (list (substitute #\e #\d (format nil "set ~arange [~,16e:~,16e]" axis low high)))))
+
 ;;; draw
 
 (defun numerics-load-draw ()

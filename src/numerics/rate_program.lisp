@@ -8,10 +8,9 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
-                "forms/fixed" "forms/program_judge" "forms/rates"
-                "forms/value" "numerics/assumed_values" "numerics/jacobian"
-                "numerics/mass_index" "numerics/program" "numerics/rate_mass"
-                "numerics/right_side_divisors"))
+                "forms/fixed" "forms/program_judge" "forms/rates" "forms/value"
+                "numerics/assumed_values" "numerics/jacobian" "numerics/rate_mass"
+                "numerics/program" "numerics/right_side_divisors"))
 
 ;;; Values.
 

@@ -8,9 +8,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "forms/dynamics" "forms/rates" "numerics/constrained"
-                "numerics/decimals" "numerics/events" "numerics/native" "numerics/observers"
-                "numerics/problem" "numerics/program" "numerics/back_to_constraints"
+                "algebra/program_nodes" "forms/dynamics" "forms/rates"
+                "numerics/back_to_constraints" "numerics/constrained" "numerics/decimals"
+                "numerics/event_samples" "numerics/native"
+                "numerics/observers" "numerics/problem" "numerics/program"
                 "numerics/rates_problem" "numerics/routine" "numerics/run_options"))
 
 (defstruct numerics-simulation

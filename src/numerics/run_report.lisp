@@ -7,8 +7,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "forms/rates" "numerics/back_to_constraints"
-                "numerics/decimals" "numerics/drifts" "numerics/events" "numerics/problem"
-                "numerics/run" "numerics/run_options"))
+                "numerics/decimals" "numerics/drifts" "numerics/event_samples" "numerics/events"
+                "numerics/problem" "numerics/run" "numerics/run_options"))
 
 (defun numerics-rounded-seconds (seconds)
   "SECONDS to the microsecond."

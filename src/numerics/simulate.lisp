@@ -7,12 +7,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "forms/rates"
-                "numerics/decimals" "numerics/events" "numerics/observers" "numerics/problem"
-                "numerics/routine" "numerics/run" "numerics/run_course"
+  (core-require "algebra/program_nodes" "forms/rates" "numerics/decimals"
+                "numerics/event_samples" "numerics/events" "numerics/observers"
+                "numerics/problem" "numerics/routine" "numerics/run" "numerics/run_course"
                 "numerics/run_estimate" "numerics/run_integrals" "numerics/run_of_rates"
-                "numerics/run_options"
-                "numerics/run_report"))
+                "numerics/run_options" "numerics/run_report"))
 
 ;;; What is told
 

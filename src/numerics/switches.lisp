@@ -11,10 +11,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "numerics/decimals"
-                "numerics/right_side_divisors" "numerics/events" "numerics/gauss_coefficients"
-                "numerics/problem" "numerics/program" "numerics/routine" "numerics/sparse"
-                "numerics/step_control"))
+                "algebra/program_nodes" "numerics/decimals" "numerics/event_samples"
+                "numerics/events" "numerics/gauss_coefficients" "numerics/problem"
+                "numerics/program" "numerics/right_side_divisors" "numerics/routine"
+                "numerics/sparse" "numerics/step_control"))
 
 (defun numerics-switch-elements (elements)
   "The arguments of signs and absolute values in ELEMENTS, and the ordinates of angles."

@@ -75,6 +75,26 @@
                        (numerics-option '$key (numerics-doubled-quotes (core-cut label)))
                        (numerics-points places))))
 
+(defparameter *numerics-most-named-curves* 30 "The names of more would take the place of curves.")
+
+(defun numerics-late-digits-p (low high)
+  "Whether numbers from LOW to HIGH differ in late digits only, which gnuplot would not write."
+  (< (- high low) (* 1d-4 (max (abs low) (abs high)))))
+
+(defun numerics-time-lines (labels places)
+  "Lines of gnuplot: no legend for many LABELS; all digits where numbers differ in late ones; axes
+that are very short."
+  (flet ((ends (key) (values (reduce #'min places :key key) (reduce #'max places :key key))))
+    (multiple-value-bind (begin end) (ends #'first)
+      (multiple-value-bind (low high) (ends #'second)
+        (append
+         (when (nthcdr *numerics-most-named-curves* labels) '("unset key"))
+         (when (numerics-late-digits-p begin end)
+           '("set format x '%.15g'" "set xtics autofreq rotate"))
+         (when (numerics-late-digits-p low high) '("set format y '%.15g'"))
+         (numerics-small-range-lines "x" begin end)
+         (numerics-small-range-lines "y" low high))))))
+
 (defun numerics-check-curves (labels places)
   "A line where one of LABELS has no PLACES; an error where none has."
   (let ((empty (loop for label in labels for curve in places unless curve collect label)))
@@ -89,7 +109,9 @@
         (places (numerics-curve-places curves (numerics-items rows))))
     (numerics-check-curves labels places)
     (numerics-draw picture
-                   (append (list (numerics-preamble "t" (if (cdr labels) "" (first labels)))
+                   (append (list (apply #'numerics-preamble "t"
+                                        (if (cdr labels) "" (first labels))
+                                        (numerics-time-lines labels (apply #'append places)))
                                  (numerics-option '$points_joined t)
                                  (numerics-option '$point_size 0)
                                  (numerics-option '$line_width 1.5d0))
