@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/messages" "numerics/problem" "numerics/step_control"))
+  (core-require "core/messages" "numerics/decimals" "numerics/problem" "numerics/step_control"))
 
 (defstruct numerics-dlsode
   problem controls
@@ -93,9 +93,20 @@
       (replace x y)
       (funcall rates moment x out)
       (incf (numerics-counts-rates counts))
-      (unless (numerics-finite-vector-p out) (throw 'numerics-no-rates :not-finite))
+      (unless (numerics-finite-vector-p out)
+        (throw 'numerics-no-rates (numerics-dlsode-without-rates run time)))
       (replace slopes out)
       nil)))
+
+(defun numerics-dlsode-without-rates (run time)
+  "What is said where the rates have no finite value in a trial at TIME: there, or beyond the state
+of RUN."
+  (if (= time (numerics-dlsode-time run))
+      :not-finite
+      (list :no-convergence
+            (format nil "dlsode: in a trial step the right-hand side has no finite value at about ~
+                         t = ~a, and it takes no shorter one; take method = auto"
+                    (numerics-short-number time)))))
 
 (defun numerics-dlsode-jacobian (run)
   "The entries go into a matrix by columns of ROWS rows, which is zero before."
