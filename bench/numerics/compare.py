@@ -159,12 +159,12 @@ def ladder_row(ours, tools, sections, error, coarse):
     reference = ladder_reference(tools, on_c, name, names)
     archive = os.path.join(tools["results"], name + ".txt")
     spice, spice_names = in_spice(tools, archive, 200)
-    tolerances = decades(-2, -12, 2)
+    tolerances = decades(-2, -12, 2 if sections < 1000 else 1)
     methods = (("DOP853", "DOP853 of SciPy"), ("ode-dop853", "Hairer's DOP853 by scipy.integrate.ode"))
     contenders = those(
         Contender("DOP853 of this package, the run alone", ours, "ladder", "dop853", tolerances),
         Contender("ARKODE of order 8 on C", exported.program("sundials"), name, "arkode", tolerances),
-        *(Contender(f"ngspice ({method}), its own elements", spice, name, method, decades(-2, -7), (1.0,), spice_names)
+        *(Contender(f"ngspice ({method}), its own elements", spice, name, method, decades(-2, -6), (1.0,), spice_names)
           for method in ("gear", "trap")),
         *scipy_contenders(tools, on_c, name, name, methods, tolerances, (1.0,)))
     compared(tools, title, contenders, reference, (coarse, error), lambda _: {})

@@ -43,7 +43,7 @@ class Worker:
 
 
 Point = namedtuple("Point", "tolerance scale error seconds evaluations")
-patience = 30.0  # seconds; a run that takes more is the last of its curve, and is not repeated
+patience = 25.0  # seconds; a curve that has taken more ends, a run that takes more is not repeated
 long = 3.0  # seconds; of a run that takes more only the stricter neighbour is timed again
 
 
@@ -75,7 +75,7 @@ class Contender:
                 seconds, evaluations, state = self.run(tolerance, scale)
                 if seconds >= 0:
                     curve.append(Point(tolerance, scale, error_of_state(self, tolerance, scale, state), seconds, evaluations))
-                if seconds > patience or sum(point.error <= least for point in curve[-2:]) == 2:
+                if sum(point.seconds for point in curve) > patience or sum(point.error <= least for point in curve[-2:]) == 2:
                     break
             self.curves.append(curve)
 
@@ -92,6 +92,10 @@ class Contender:
     def best(self):
         """The point of the least error."""
         return min((point for curve in self.curves for point in curve), key=lambda point: point.error, default=None)
+
+    def long_p(self):
+        """Whether its time ended a curve."""
+        return any(sum(point.seconds for point in curve) > patience for curve in self.curves)
 
     def slow(self):
         return max(point.seconds for point in self.ends) > patience

@@ -100,7 +100,8 @@ def equal_error(title, contenders, error, goal_texts, words="error {:g}", second
         best = contender.best()
         print(f"\nNo ratio: {contender.title} " + (
             f"has no such error on its curve; its least is {best.error:.1e} (tolerance {best.tolerance:.1g}, "
-            f"{1e3 * best.seconds:.4g} ms)" + (f", its runs go beyond {patience:g} s." if best.seconds > patience else ".")
+            f"{1e3 * best.seconds:.4g} ms)" + (
+                f", where its curve had taken {patience:g} s." if contender.long_p() else ".")
             if best else "does not reach the end."))
         if contender.title in goal_texts:
             missed(f"{goal_texts[contender.title][0]} over that of {contender.title}: no such error on both curves")
