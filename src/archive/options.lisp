@@ -234,14 +234,16 @@ to the rule only."
 
 (defun archive-numbers-over-values (call pairs)
   "PAIRS where numbers given to parameters of a run stand in `values', over those of the archive."
-  (let ((numbers (find-if #'archive-numbers-p pairs)))
-    (when (core-public-numerical (archive-call-public call))
+  (let ((numbers (find-if #'archive-numbers-p pairs))
+        (given (cdr (assoc "values" pairs :test #'string=))))
+    (when (and (core-public-numerical (archive-call-public call))
+               (or (null given) (archive-list-p given)))
       (archive-check-numbered-names
-       call (append (cdr numbers) (cdr (assoc "values" pairs :test #'string=)))
+       call (append (cdr numbers) (cdr given))
        (archive-names-beside-numbers call pairs)))
-    (if (and numbers (core-public-numerical (archive-call-public call)))
-        (let* ((values (or (cdr (assoc "values" pairs :test #'string=))
-                           (archive-key-value call "values")))
+    (if (and numbers (core-public-numerical (archive-call-public call))
+             (or (null given) (archive-list-p given)))
+        (let* ((values (or given (archive-key-value call "values")))
                (kept (remove-if (lambda (equation)
                                   (member (second equation) (archive-lefts (cdr numbers))))
                                 (cdr values))))
