@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2122836574 93088
+;;; Made by tools/doc; checksum of doc/*.texi: 3345337447 93405
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -51,10 +51,10 @@
 ("LinearIntegrals" . ("dynarch.info" 72749 654 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 73404 702 "Definitions for Analysis"))
 ("Simulate" . ("dynarch.info" 74385 6393 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 80779 3547 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 84327 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 86290 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 91008 3304 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 80779 3878 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 84658 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 86621 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 91339 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -64,6 +64,6 @@
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 7926))
 ("Definitions for Analysis" . ("dynarch.info" 47581 26525))
-("Definitions for Numerics" . ("dynarch.info" 74241 20071))
+("Definitions for Numerics" . ("dynarch.info" 74241 20402))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

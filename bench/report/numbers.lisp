@@ -70,13 +70,15 @@
           (format out "* ~a from ~a on: ~a~%" (report-word method) (report-short (report-relative row))
                   (report-entry row '$status)))))))
 
+(defun report-conditioning (floor) (if floor (report-short floor) "left out"))
+
 (defun report-scene (out result)
   (flet ((part (key) ($core_get result key)))
     (let ((reference (part '$reference)) (first (first (report-rows result))))
       (format out "~%### ~a~%~%Span ~a, ~d states. Reference: ~a; floor ~a. Conditioning: ~a. ~
                    Derived in ~a ms, compiled in ~a ms. Program ~a.~%~%![~a](numbers/~a.svg)~%"
               (part '$title) (report-word (part '$span)) (part '$states) ($core_get reference '$method)
-              (report-short ($core_get reference '$floor)) (report-short (part '$conditioning))
+              (report-short ($core_get reference '$floor)) (report-conditioning (part '$conditioning))
               (report-milliseconds (report-entry first '$derivation_seconds))
               (report-milliseconds (report-entry first '$compile_seconds))
               (subseq (part '$digest) 0 23) (part '$title) (part '$name)))

@@ -27,8 +27,9 @@
     (dolist (item items (remove-duplicates items :from-end t))
       (unless (member item words)
         (let ((spellings (mapcar #'core-spelling words)) (found (core-words (list item))))
-          (core-error "a method is ~a, found ~a~@[; did you mean ~a?~]" (core-choice spellings)
-                      found (core-nearest found spellings)))))))
+          (core-error "a method is ~a, found ~:[~a~;\"~a\"~]~@[; did you mean ~a?~]"
+                      (core-choice spellings) (stringp item) found
+                      (core-nearest found spellings)))))))
 
 (defun numerics-read-tolerances (tolerances trial)
   "The list TOLERANCES from the loosest to the tightest."
@@ -37,9 +38,22 @@
     (unless items
       (core-error "tolerances is a list such as [1e-4, 1e-8], found ~a"
                   (core-words (list tolerances))))
-    (mapcar #'numerics-tolerance-as-told
-            (stable-sort (copy-list items) #'>
-                         :key (lambda (item) (values (numerics-read-tolerance item names)))))))
+    (flet ((relative (item)
+             (numerics-refuse-tight-tolerance item)
+             (values (numerics-read-tolerance item names))))
+      (remove-duplicates
+       (mapcar (lambda (pair) (numerics-tolerance-as-told (rest pair)))
+               (stable-sort (mapcar (lambda (item) (cons (relative item) item)) items) #'>
+                            :key #'first))
+       :test #'equal :from-end t))))
+
+(defun numerics-refuse-tight-tolerance (tolerance)
+  "Here there are no digits to advise, as numerics-check-tolerance does."
+  (let ((relative (if (numerics-items tolerance) (second tolerance) tolerance)))
+    (when (and (mnump relative)
+               (< (numerics-double relative "tolerance") *numerics-least-tolerance*))
+      (core-error "a tolerance of ~a is below 1e-13, what double-float numbers can keep"
+                  (numerics-short-number (numerics-double relative "tolerance"))))))
 
 (defun numerics-read-cell (seconds)
   (let ((number (numerics-double seconds "cell")))
@@ -153,19 +167,41 @@ interrupted."
                   (algebra-field '$digits (numerics-reference-digits reference))
                   (algebra-field '$floor (and floor (numerics-few-digits floor))))))
 
+(defun numerics-untold-texts (attempts)
+  "Which integrals have no drift by which method, and why."
+  (remove-duplicates
+   (loop for attempt in attempts
+         for method = (core-spelling (numerics-attempt-method attempt))
+         append (loop for text in (numerics-attempt-untold attempt)
+                      collect (format nil "~a, ~a" method text)))
+   :test #'string= :from-end t))
+
+(defun numerics-told-run (contest attempts left-out)
+  "What an archive says beside the record: where seconds were measured, and why drifts and, in
+LEFT-OUT, the conditioning are not there."
+  (let ((untold (numerics-untold-texts attempts)))
+    (apply #'algebra-list
+           (append (list (algebra-field '$machine (numerics-machine-text))
+                         (algebra-field '$cell (numerics-contest-seconds contest)))
+                   (and untold (list (algebra-field '$untold (cons '(mlist simp) untold))))
+                   (and left-out (list (algebra-field '$conditioning left-out)))))))
+
 (defun numerics-told-contest (contest)
   "The record of CONTEST, all attempts made; that of those so far where it is stopped."
-  (let ((conditioning (numerics-trial-conditioning (numerics-contest-trial contest))))
+  (let ((began (core-clock)))
     (multiple-value-bind (attempts stop) (numerics-all-attempts contest)
       (when stop (core-partial "~a; the rows so far are kept as a part" stop))
-      (algebra-list
-       (algebra-field '$reference (numerics-told-reference contest))
-       (algebra-field '$conditioning (and conditioning (numerics-few-digits conditioning)))
-       (algebra-field '$columns (cons '(mlist simp) *numerics-row-columns*))
-       (algebra-field '$rows
-                      (cons '(mlist simp)
-                            (mapcar (lambda (attempt) (numerics-attempt-row contest attempt))
-                                    attempts)))))))
+      (multiple-value-bind (conditioning left-out)
+          (numerics-conditioning-within (- (core-clock) began) (numerics-contest-trial contest))
+        (core-report "run" (numerics-told-run contest attempts left-out))
+        (algebra-list
+         (algebra-field '$reference (numerics-told-reference contest))
+         (algebra-field '$conditioning (and conditioning (numerics-few-digits conditioning)))
+         (algebra-field '$columns (cons '(mlist simp) *numerics-row-columns*))
+         (algebra-field '$rows
+                        (cons '(mlist simp)
+                              (mapcar (lambda (attempt) (numerics-attempt-row contest attempt))
+                                      attempts))))))))
 
 ;;; For Maxima
 
@@ -183,6 +219,4 @@ interrupted."
           (numerics-contest-floor copy)
           (and (numerics-reference-rows reference)
                (numerics-reference-floor reference (numerics-contest-scales contest))))
-    (core-report "run" (algebra-list (algebra-field '$machine (numerics-machine-text))
-                                     (algebra-field '$cell (numerics-contest-seconds contest))))
     (numerics-told-contest copy)))

@@ -23,6 +23,7 @@
   (run nil)                    ; the first bare run
   (seconds '())                ; of all, sorted
   (error nil) (largest nil) (drifts '())
+  (untold '())                 ; integrals without a drift, and why
   (status nil)                 ; a sentence
   (reached nil)                ; whether it came to the end
   (interrupted nil))
@@ -129,6 +130,7 @@ many runs each is the mean, since the clock ticks in microseconds."
     (numerics-compare-end contest attempt)
     (with-numerics-program (numerics-simulation-program run)
       (numerics-watch-integrals run))
+    (setf (numerics-attempt-untold attempt) (numerics-simulation-untold run))
     (when (numerics-carry-out-again attempt run
                                     (numerics-limited (* *numerics-patience*
                                                          (numerics-contest-seconds contest))))

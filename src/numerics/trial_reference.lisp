@@ -65,13 +65,29 @@ for is a part."
      :rows (mapcar (lambda (row) (mapcar #'numerics-double-of-exact (cdr row))) (items '$rows)))))
 
 (defun numerics-trial-conditioning (trial)
-  "The floor of double-float numbers at the end of TRIAL; nil where a run did not reach it in time."
+  "The floor of double-float numbers at the end of TRIAL; nil where a perturbation does not reach
+it."
   (let ((run (numerics-trial-run trial)))
     (core-progress "computing the conditioning")
-    (numerics-within-share
-     (lambda ()
-       (numerics-with-masked-traps
-         (values (numerics-conditioning #'numerics-automatic (numerics-simulation-problem run)
-                                        (numerics-simulation-controls run)
-                                        (numerics-simulation-moment run)
-                                        (numerics-simulation-state run))))))))
+    (numerics-with-masked-traps
+      (values (numerics-conditioning #'numerics-automatic (numerics-simulation-problem run)
+                                     (numerics-simulation-controls run)
+                                     (numerics-simulation-moment run)
+                                     (numerics-simulation-state run))))))
+
+(defparameter *numerics-conditioning-seconds* 5 "It may take so long however short the runs were.")
+
+(defun numerics-conditioning-within (seconds trial)
+  "As numerics-trial-conditioning, in about the SECONDS of the runs beside it and in what the call
+has left; where it is not known by then, nil, and why, which a warning says too."
+  (let* ((left (core-seconds-left)) (most (max *numerics-conditioning-seconds* seconds))
+         (time (if left (min most (* *numerics-share-of-time* left)) most)))
+    (multiple-value-bind (floor stop)
+        (core-timed time (lambda () (numerics-trial-conditioning trial)))
+      (let ((why (cond (floor nil)
+                       (stop (format nil "it was not known after ~,1f s, about the time of all ~
+                                          runs or the time left"
+                                     time))
+                       (t "a run with a perturbation did not reach the end"))))
+        (when why (core-warn "conditioning is left out: ~a" why))
+        (values floor why)))))
