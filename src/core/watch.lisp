@@ -86,9 +86,11 @@ to the next line of progress begin anew."
   "SECONDS as a person says them."
   (if (< seconds 10) (format nil "~,2f" seconds) (format nil "~d" (round seconds))))
 
-(defun core-late-text (deadline)
+(defun core-late-text ()
+  "The time is that since the call began, also where work within it had a share of the limit."
   (format nil "stopped after ~a s, the limit of time~@[, while ~a~]~a"
-          (core-rounded (core-seconds-since (core-deadline-began deadline))) *core-doing*
+          (core-rounded (core-seconds-since (core-deadline-began (first (last *core-deadlines*)))))
+          *core-doing*
           (core-advised (core-number-advice) *core-cheaper*
                         "give more time by limit = seconds (0: none)")))
 
@@ -112,7 +114,7 @@ to the next line of progress begin anew."
              (when (and *core-progress* (>= now *core-next-line*) (funcall may-write-p))
                (core-say-progress now)))
             ((funcall may-stop-p (core-seconds-since (core-deadline-at late)))
-             (core-stop late (core-late-text late)))))))
+             (core-stop late (core-late-text)))))))
 
 (defun core-watch ()
   "A look at the clock; called at guards, where the work may stop."
