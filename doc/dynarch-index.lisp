@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 3345337447 93405
+;;; Made by tools/doc; checksum of doc/*.texi: 2866700312 93427
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -51,10 +51,10 @@
 ("LinearIntegrals" . ("dynarch.info" 72749 654 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 73404 702 "Definitions for Analysis"))
 ("Simulate" . ("dynarch.info" 74385 6393 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 80779 3878 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 84658 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 86621 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 91339 3304 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 80779 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 84686 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 86649 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 91367 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -64,6 +64,6 @@
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 7926))
 ("Definitions for Analysis" . ("dynarch.info" 47581 26525))
-("Definitions for Numerics" . ("dynarch.info" 74241 20402))
+("Definitions for Numerics" . ("dynarch.info" 74241 20430))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

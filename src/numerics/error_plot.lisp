@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/messages" "numerics/error_against_time"
+  (core-require "core/messages" "numerics/decimals" "numerics/error_against_time"
                 "numerics/pictures" "numerics/time_plot"))
 
 (defun numerics-of-row (row column)
@@ -87,16 +87,21 @@
           (list (power low) (power high))))
       (list 1d-6 1d0)))
 
-(defun numerics-range-option (name range) (numerics-option name (cons '(mlist simp) range)))
+(defun numerics-range-command (axis range)
+  (format nil "set ~arange [~a:~a]" axis (numerics-short-number (first range))
+          (numerics-short-number (second range))))
 
 (defun numerics-diagram (groups cost floors preamble)
-  "The scene of the errors of GROUPS over the column COST, with lines for FLOORS."
+  "The scene of the errors of GROUPS over the column COST, with lines for FLOORS; PREAMBLE is a
+function of further commands."
   (let* ((places (loop for (nil . rows) in groups append (numerics-cost-places rows cost)))
          (width (numerics-decades (mapcar #'first places)))
          (height (numerics-decades (append (mapcar #'second places)
                                            (remove nil (mapcar #'second floors))))))
-    (append (list preamble (numerics-option '$logx t) (numerics-option '$logy t)
-                  (numerics-range-option '$xrange width) (numerics-range-option '$yrange height))
+    ;; The option yrange of draw takes ends below 1e-15 for equal, and moves them.
+    (append (list (funcall preamble (numerics-range-command "x" width)
+                           (numerics-range-command "y" height))
+                  (numerics-option '$logx t) (numerics-option '$logy t))
             (numerics-method-items groups cost)
             (numerics-floor-items floors width)
             (unless places
@@ -110,14 +115,17 @@
       "no method reached the end"))
 
 (defun numerics-diagram-preamble (label room lines)
-  "Below the axis there is ROOM for so many lines, and at the foot of the picture stand LINES."
-  (apply #'numerics-preamble label "error at the end"
-         "set key samplen 2" "set format xy '10^{%L}'" "set grid" "unset label"
-         (format nil "set bmargin ~d" (+ 4 room))
-         (loop for (text . more) on lines
-               collect (format nil "set label ~a at screen 0.05, screen 0 offset character 0, ~d ~
-                                    left noenhanced"
-                               (numerics-gnuplot-text text) (1+ (length more))))))
+  "The preamble as a function of further commands. Below the axis there is ROOM for so many lines,
+and at the foot of the picture stand LINES."
+  (let ((labels (loop for (text . more) on lines
+                      collect (format nil "set label ~a at screen 0.05, screen 0 offset character ~
+                                           0, ~d left noenhanced"
+                                      (numerics-gnuplot-text text) (1+ (length more))))))
+    (lambda (&rest commands)
+      (apply #'numerics-preamble label "error at the end"
+             "set key samplen 2" "set format xy '10^{%L}'" "set grid" "unset label"
+             (format nil "set bmargin ~d" (+ 4 room))
+             (append commands labels)))))
 
 (defun $numerics_error_plot (picture record)
   "Draws RECORD, and gives it."
