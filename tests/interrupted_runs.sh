@@ -36,7 +36,7 @@ printf 'Simulate("ctrl_c.txt", points = makelist(10*k, k, 1, 2000), limit = 0);\
 until grep -q 'Simulate: t = ' output || ! kill -0 "$maxima_pid" 2>/dev/null; do sleep 0.1; done
 pkill -INT -P "$maxima_pid" 2>/dev/null || kill -INT "$maxima_pid"
 printf 'print(">> after", RateProgram(['"'"'diff(x, t) = -x]))$\n' >&3
-printf 'errcatch(Simulate("limit.txt", points = makelist(10*k, k, 1, 2000), limit = 3))$\nprint(">> at the end")$\nquit();\n' >&3
+printf 'errcatch(Simulate("limit.txt", points = makelist(10*k, k, 1, 2000), limit = 15))$\nprint(">> at the end")$\nquit();\n' >&3
 exec 3>&-
 wait "$maxima_pid"
 

@@ -10,7 +10,8 @@ scenes = defaultdict(lambda: defaultdict(list))
 with open(curves, encoding="ascii") as file:
     for line in file:
         scene, contender, _, scale, error, _, seconds = line.rstrip("\n").split("\t")
-        scenes[scene][contender].append((scale, seconds, error))
+        if float(error) < 1:
+            scenes[scene][contender].append((scale, seconds, error))
 contenders = sorted({contender for scene in scenes.values() for contender in scene})
 families = ["heyoka", "ARKODE", "CVODE", "RADAU5", "DOP853 of SciPy", "Hairer's DOP853", "LSODA", "Radau of SciPy", "ngspice"]
 colours = ["#d62728", "#1f77b4", "#17becf", "#9467bd", "#2ca02c", "#ff7f0e", "#8c564b", "#e377c2", "#7f7f7f"]
@@ -38,7 +39,7 @@ def panel(number, scene):
             for title, points in scenes[scene].items()]
     plots = ", ".join(f"$curve{number}_{place} using 1:2 with linespoints {style(title)} title \"{title}\""
                       for title, place in sorted((title, contenders.index(title)) for title in scenes[scene]))
-    return "".join(data) + f'set title "{scene}"\nplot {plots}\n'
+    return "".join(data) + f'set title "{scene}" noenhanced\nplot {plots}\n'
 
 
 rows = (len(scenes) + 1) // 2

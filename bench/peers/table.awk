@@ -57,7 +57,7 @@ BEGIN {
 
 { time[$1, $2, $3] = $4; operations[$1, $2, $3] = $5 }
 
-$6 != "-" && $1 ~ /^(sympy|symengine|casadi|linmodel_(factored|canonical|program))/ {
+NF == 6 && $6 != "-" && $1 ~ /^(sympy|symengine|casadi|linmodel_(factored|canonical|program))/ {
   if (!(($2, $3) in first)) first[$2, $3] = $6
   compared++
   d = $6 - first[$2, $3]; if (d < 0) d = -d

@@ -41,4 +41,4 @@
                 (length comparisons) behind)
         (format out "doc/bench.md has no comparisons at equal error; `make bench-peers` makes them.~%"))
     (loop for (title first) in behind
-          do (format out "* ~a: ~a; our time over it ~a~%" title (first first) (car (last first))))))
+          do (format out "* ~a: ~a; our time over it (quartiles): ~a pairs~%" title (first first) (car (last first))))))
