@@ -18,6 +18,7 @@
   rates          ; series of X
   solve          ; nil, or the function of a list of X_k: that of M^-1 X_k
   rules          ; of the nodes that move, in their order
+  (lost nil)     ; whether a constant has no bit of these
   corners        ; (text y . x): nothing is said of what is past y = 0 where x is nil, or negative
   (series (make-hash-table))                 ; index of a node -> its series
   (partners (make-hash-table :test #'equal))) ; (operation part) -> series beside that of a node
@@ -26,8 +27,11 @@
   (make-array (+ 2 (numerics-expansion-order expansion)) :initial-element 0))
 
 (defun numerics-constant-series (e expansion)
-  (let ((series (numerics-new-series expansion)))
-    (setf (svref series 0) (numerics-fixed e (numerics-expansion-bits expansion)))
+  (let ((series (numerics-new-series expansion))
+        (value (numerics-fixed e (numerics-expansion-bits expansion))))
+    (when (and (eql value 0) (not (and (mnump e) (zerop1 e))))
+      (setf (numerics-expansion-lost expansion) t))
+    (setf (svref series 0) value)
     series))
 
 (defun numerics-series-of (element expansion)

@@ -23,13 +23,34 @@
 
 (defun numerics-taylor-order (digits) (max 8 (1+ (ceiling (* digits (log 10d0) 1/2)))))
 
+(defun numerics-taylor-more-bits (times scales)
+  "For a span far from 1, in which times, or else rates, would have no digits, and for states that
+count where they are far smaller than 1."
+  (flet ((exponent (e) (- (integer-length (abs (numerics-fixed e 1200))) 1200)))
+    (max 0
+         (- (abs (exponent (sub (car (last times)) (first times)))) 40)
+         (- (- (reduce #'min (mapcar #'exponent scales))) 40))))
+
+(defun numerics-expansion-with-constants (program bits order)
+  "The expansion of PROGRAM with so many BITS or more that no constant is lost."
+  (loop for enough = bits then (* 2 enough)
+        for expansion = (numerics-expansion-of program enough order)
+        while (numerics-expansion-lost expansion)
+        do (when (> enough 10000)
+             (core-error "a number of the equations is too small for series; take other units"))
+        finally (return expansion)))
+
 (defun numerics-new-taylor-run (program start times scales digits)
-  (let ((bits (+ (ceiling (* digits (log 10d0 2))) numerics-taylor-guard-bits)))
+  (let* ((expansion (numerics-expansion-with-constants
+                     program
+                     (+ (ceiling (* digits (log 10d0 2))) numerics-taylor-guard-bits
+                        (numerics-taylor-more-bits times scales))
+                     (numerics-taylor-order digits)))
+         (bits (numerics-expansion-bits expansion)))
     (flet ((fixed (numbers) (mapcar (lambda (e) (numerics-fixed e bits)) numbers)))
       (let ((times (fixed times)))
         (make-numerics-taylor-run
-         :digits digits :scales (fixed scales)
-         :expansion (numerics-expansion-of program bits (numerics-taylor-order digits))
+         :digits digits :scales (fixed scales) :expansion expansion
          :moment (first times) :states (fixed start) :end (car (last times)) :left times
          :span (abs (- (car (last times)) (first times))))))))
 
