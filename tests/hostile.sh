@@ -9,7 +9,7 @@ root=$here/..
 
 public_functions() {
   cat "$root/linmodel.mac" "$root/circuits.mac" "$root/analysis.mac" | tr ',' '\n' |
-    sed -n 's/.*"\([A-Z][A-Za-z]*\)".*/\1/p' | sort -u
+    sed -n 's/.*"\([A-Z][A-Za-z]*\)".*/\1/p' | sort -u | grep -v '^ErrorAgainstTime$' # its rows have times
 }
 
 calls() {
@@ -20,6 +20,8 @@ calls() {
 LagrangeEquations("spherical_pendulum.txt", simplify = true)
 InvariantManifolds("spherical_pendulum.txt", extend = [theta])
 Equilibria("equilibria.txt", where = [])
+ErrorAgainstTime("coupled_pendulums.txt", tolerances = [1e-30])
+assoc(rows, ErrorAgainstTime("coupled_pendulums.txt", tolerances = [1e-6], methods = [dop853, radau], save = false))[2][3]
 END
 }
 
@@ -32,7 +34,7 @@ session() {
   } >"$1/session.mac"
   (cd "$1" && "$root/tools/maxima" --very-quiet <session.mac >answers 2>&1)
   (cd "$1" && awk '/^== [0-9]+$/ { printf "%s", text >$2; text = ""; next }
-                         /(computing|reading).*, [0-9]+ s *$/ { next } # progress tells the time
+                         /^[A-Za-z]*: .*, [0-9]+ s *$/ { next } # progress tells the time
                          { text = text $0 "\n" }' answers)
 }
 
