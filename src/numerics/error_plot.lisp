@@ -117,15 +117,15 @@ function of further commands."
 (defun numerics-diagram-preamble (label room lines)
   "The preamble as a function of further commands. Below the axis there is ROOM for so many lines,
 and at the foot of the picture stand LINES."
-  (let ((labels (loop for (text . more) on lines
-                      collect (format nil "set label ~a at screen 0.05, screen 0 offset character ~
-                                           0, ~d left noenhanced"
-                                      (numerics-gnuplot-text text) (1+ (length more))))))
+  (let ((foot (loop for (text . more) on lines
+                    collect (format nil "set label ~a at screen 0.05, screen 0 offset character 0, ~
+                                         ~d left noenhanced"
+                                    (numerics-gnuplot-text text) (1+ (length more))))))
     (lambda (&rest commands)
       (apply #'numerics-preamble label "error at the end"
              "set key samplen 2" "set format xy '10^{%L}'" "set grid" "unset label"
              (format nil "set bmargin ~d" (+ 4 room))
-             (append commands labels)))))
+             (append commands foot)))))
 
 (defun $numerics_error_plot (picture record)
   "Draws RECORD, and gives it."
