@@ -24,7 +24,6 @@ InvariantManifolds("spherical_pendulum.txt", extend = [theta])
 Equilibria("equilibria.txt", where = [])
 ErrorAgainstTime("coupled_pendulums.txt", tolerances = [1e-30])
 ReferenceSolution("coupled_pendulums.txt")
-assoc(rows, ErrorAgainstTime("coupled_pendulums.txt", tolerances = [1e-6], methods = [dop853, radau], save = false))[2][3]
 END
 }
 

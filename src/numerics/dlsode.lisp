@@ -39,13 +39,11 @@
 
 (defun numerics-load-dlsode ()
   "The function dlsode."
-  (unless (and (find-package "ODEPACK") (numerics-odepack "DLSODE")
-               (fboundp (numerics-odepack "DLSODE")))
-    (handler-case
-        (let* ((*standard-output* (make-broadcast-stream)) (*error-output* *standard-output*))
-          (handler-bind ((warning #'muffle-warning))
-            (core-unhurried (lambda () ($load "dlsode")))))
-      (error () (core-error "dlsode of Maxima's share cannot be loaded; take method = radau"))))
+  (flet ((there-p ()
+           (and (find-package "ODEPACK") (numerics-odepack "DLSODE")
+                (fboundp (numerics-odepack "DLSODE")))))
+    (unless (core-load-share "dlsode" #'there-p)
+      (core-error "dlsode of Maxima's share cannot be loaded; take method = radau")))
   (symbol-function (numerics-odepack "DLSODE")))
 
 (defun numerics-dlsode-silently (function)

@@ -75,13 +75,8 @@ them; none else."
 ;;; draw
 
 (defun numerics-load-draw ()
-  (unless (fboundp '$draw)
-    (core-progress "loading draw")
-    (core-unhurried
-     (lambda ()
-       (let ((*standard-output* (make-broadcast-stream)) (*error-output* (make-broadcast-stream)))
-         (core-attempt (lambda () ($load "draw")))))))
-  (unless (fboundp '$draw)
+  (unless (fboundp '$draw) (core-progress "loading draw"))
+  (unless (core-load-share "draw" (lambda () (fboundp '$draw)))
     (core-error "Maxima's package draw, which makes the pictures, cannot be loaded")))
 
 (defun numerics-with-own-draw (function)
