@@ -48,9 +48,7 @@
 (defun numerics-dead-distance-at (dead step share)
   (let ((moment (numerics-dead-points-moment dead)) (state (numerics-dead-points-state dead)))
     (numerics-step-moment step share moment)
-    (if (= share 1d0)
-        (replace state (numerics-step-after step))
-        (funcall (the function (numerics-step-interpolate step)) share state))
+    (numerics-step-state step share state)
     (numerics-dead-distance dead moment state)))
 
 (defparameter *numerics-dead-shares* '(0.015625d0 0.25d0 0.5d0 0.75d0 0.984375d0)

@@ -33,15 +33,6 @@
 
 ;;; Values along a step
 
-(declaim (inline numerics-step-moment))
-(defun numerics-step-moment (step share out)
-  "The moment at SHARE of STEP, into OUT."
-  (declare (double-float share) (type numerics-vector out))
-  (let ((from (numerics-step-from step)) (to (numerics-step-to step)))
-    (setf (aref out 0) (aref from 0) (aref out 1) (aref from 1))
-    (numerics-advance out (* share (+ (- (aref to 0) (aref from 0))
-                                      (- (aref to 1) (aref from 1)))))))
-
 (defun numerics-events-at (events step share)
   "The values of all functions at SHARE of STEP."
   (declare (double-float share))

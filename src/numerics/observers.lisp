@@ -61,11 +61,10 @@ was found between two steps back to the constraints."
 
 (defun numerics-add-rows-between (rows step)
   "The rows at those of the times that STEP reaches."
-  (let* ((from (numerics-step-from step)) (to (numerics-step-to step))
-         (length (+ (- (aref to 0) (aref from 0)) (- (aref to 1) (aref from 1))))
-         (times (numerics-rows-times rows)) (state (numerics-rows-state rows))
-         (moment (numerics-rows-moment rows)))
-    (declare (type numerics-vector from to times state moment) (double-float length))
+  (let ((from (numerics-step-from step)) (length (numerics-step-length step))
+        (times (numerics-rows-times rows)) (state (numerics-rows-state rows))
+        (moment (numerics-rows-moment rows)))
+    (declare (type numerics-vector from times state moment) (double-float length))
     (loop while (< (numerics-rows-next rows) (length times))
           do (let* ((time (aref times (numerics-rows-next rows)))
                     (share (/ (- time (aref from 0) (aref from 1)) length)))

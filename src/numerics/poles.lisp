@@ -69,9 +69,7 @@ run before a step over a pole."
   "The value of the divisor PLACE at SHARE of STEP; the moment and the state there are noted."
   (let ((moment (numerics-poles-moment poles)) (state (numerics-poles-state poles)))
     (numerics-step-moment step share moment)
-    (cond ((= share 0d0) (replace state (numerics-step-before step)))
-          ((= share 1d0) (replace state (numerics-step-after step)))
-          (t (funcall (the function (numerics-step-interpolate step)) share state)))
+    (numerics-step-state step share state)
     (funcall (the function (numerics-poles-routine poles)) moment state
              (numerics-poles-values poles))
     (aref (numerics-poles-values poles) place)))
@@ -106,7 +104,7 @@ as numbers come, it is compared with that at a small distance."
         (cond ((> (abs near) (abs far)) nil)
               ((and at-near at-far)
                (numerics-strength-stays-p (abs (/ near far)) at-near
-                                 (numerics-at-least-visible poles step far at-far)))
+                                          (numerics-at-least-visible poles step far at-far)))
               (t t))))))
 
 (defun numerics-shares-about (share distance)

@@ -105,6 +105,26 @@
   nodes)       ; nil, or ((share . weight) ..) at which a function of the state is integrated as
                ; accurately as the method is, by the interpolated states
 
+(declaim (inline numerics-step-length numerics-step-moment))
+
+(defun numerics-step-length (step)
+  (let ((from (numerics-step-from step)) (to (numerics-step-to step)))
+    (+ (- (aref to 0) (aref from 0)) (- (aref to 1) (aref from 1)))))
+
+(defun numerics-step-moment (step share out)
+  "The moment at SHARE of STEP, into OUT."
+  (declare (double-float share) (type numerics-vector out))
+  (replace out (numerics-step-from step))
+  (numerics-advance out (* share (numerics-step-length step))))
+
+(defun numerics-step-state (step share out)
+  "The state at SHARE of STEP, into OUT: at its ends what it was and is, a projection included."
+  (declare (double-float share))
+  (cond ((= share 0d0) (replace out (numerics-step-before step)))
+        ((= share 1d0) (replace out (numerics-step-after step)))
+        (t (funcall (the function (numerics-step-interpolate step)) share out)
+           out)))
+
 ;;; How a method ended.
 
 (defstruct numerics-outcome

@@ -95,20 +95,10 @@ another."
                                                 (list share (/ (1+ k) 16d0)))
                          collect (list (numerics-crossing events step place from to) place)))))
 
-(defun numerics-step-state (switches step share)
-  (let ((state (numerics-switches-state switches)))
-    (cond ((= share 0d0) (replace state (numerics-step-before step)))
-          ((= share 1d0) (replace state (numerics-step-after step)))
-          (t (funcall (the function (numerics-step-interpolate step)) share state)))))
-
-(defun numerics-step-length (step)
-  (let ((from (numerics-step-from step)) (to (numerics-step-to step)))
-    (+ (- (aref to 0) (aref from 0)) (- (aref to 1) (aref from 1)))))
-
 (defun numerics-integral (switches step from to)
   "That of X along STEP between two shares of it."
   (let ((sum (numerics-switches-sum switches)) (slope (numerics-switches-slope switches))
-        (moment (numerics-switches-moment switches))
+        (moment (numerics-switches-moment switches)) (state (numerics-switches-state switches))
         (length (* (- to from) (numerics-step-length step))))
     (fill sum 0d0)
     (loop for node in (numerics-switches-nodes switches)
@@ -116,15 +106,16 @@ another."
           for share = (+ from (* node (- to from)))
           do (numerics-step-moment step share moment)
              (funcall (the function (numerics-switches-rates switches)) moment
-                      (numerics-step-state switches step share) slope)
+                      (numerics-step-state step share state) slope)
              (map-into sum (lambda (s x) (+ s (* weight length x))) sum slope))
     sum))
 
 (defun numerics-missed (switches step from to)
   "What STEP adds between two shares, less the integral of X there, over the tolerance."
   (let* ((integral (numerics-integral switches step from to))
-         (before (copy-seq (numerics-step-state switches step from)))
-         (after (numerics-step-state switches step to))
+         (n (length integral))
+         (before (numerics-step-state step from (numerics-zeros n)))
+         (after (numerics-step-state step to (numerics-zeros n)))
          (scales (map 'numerics-vector (lambda (x scale) (+ (abs x) scale)) after
                       (numerics-switches-scales switches)))
          (largest 0d0))
@@ -197,7 +188,7 @@ little more than the way there along X is made, and the next bit along X there. 
 divided out nothing is said.)"
   (let* ((moment (copy-seq (numerics-switches-moment switches)))
          (small (numerics-small-share switches step)) (from (max 0d0 (- share small)))
-         (state (copy-seq (numerics-step-state switches step from)))
+         (state (numerics-step-state step from (copy-seq (numerics-switches-state switches))))
          (short (* small (numerics-step-length step))))
     (numerics-step-moment step from moment)
     (let* ((before (numerics-argument-at switches place moment state))
