@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/decimals" "numerics/problem"))
+  (core-require "numerics/problem" "numerics/quadrature"))
 
 (defstruct numerics-drifts
   functions                                          ; (moment x out): values, then their sizes
@@ -58,22 +58,11 @@ are 0."
 
 ;;; Powers
 
-(defparameter *numerics-gauss-nodes*
-  (loop for (distance weight) in '(("0" "0.56888888888888888889")
-                                   ("0.53846931010568309104" "0.47862867049936646804")
-                                   ("0.90617984593866399280" "0.23692688505618908751"))
-        for share = (numerics-decimal distance)
-        for half = (/ (numerics-decimal weight) 2)
-        append (loop for x in (if (zerop share) (list 0) (list (- share) share))
-                     collect (cons (numerics-rounded (/ (1+ x) 2)) (numerics-rounded half))))
-  "Gauss' formula of five nodes on [0, 1] (M. Abramowitz, I. Stegun, Handbook of mathematical
-functions, table 25.4): ((share . weight) ..).")
-
 (defun numerics-add-powers (drifts step)
   "Adds the integrals of the powers along STEP."
   (let ((moment (numerics-drifts-moment drifts)) (state (numerics-drifts-state drifts))
         (rates (numerics-drifts-rates drifts)) (length (numerics-step-length step)))
-    (loop for (share . weight) in (or (numerics-step-nodes step) *numerics-gauss-nodes*)
+    (loop for (share . weight) in (or (numerics-step-nodes step) *numerics-quadrature*)
           do (numerics-step-moment step share moment)
              (numerics-step-state step share state)
              (funcall (the function (numerics-drifts-powers drifts)) moment state rates)

@@ -11,10 +11,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "numerics/decimals" "numerics/event_samples"
-                "numerics/events" "numerics/gauss_coefficients" "numerics/problem"
-                "numerics/program" "numerics/right_side_divisors" "numerics/routine"
-                "numerics/sparse" "numerics/step_control"))
+                "algebra/program_nodes" "numerics/event_samples"
+                "numerics/events" "numerics/problem" "numerics/program" "numerics/quadrature"
+                "numerics/right_side_divisors" "numerics/routine" "numerics/sparse"
+                "numerics/step_control"))
 
 (defun numerics-switch-elements (elements)
   "The arguments of signs and absolute values in ELEMENTS, and the ordinates of angles."
@@ -38,14 +38,11 @@
 (defstruct numerics-switches
   elements events rates mass timed                    ; the last three of the problem
   scales relative end                                 ; those of the controls
-  nodes weights                                       ; of a quadrature
   (passed '())                                        ; times of steps over a zero, the last first
   (moment (numerics-zeros 2) :type numerics-vector)
   (state (numerics-zeros 0) :type numerics-vector)
   (slope (numerics-zeros 0) :type numerics-vector)
   (sum (numerics-zeros 0) :type numerics-vector))
-
-(defparameter *numerics-quadrature-nodes* 5)
 
 (defun numerics-new-switches (program problem controls)
   "What looks for jumps and corners of the right-hand side of PROBLEM, which PROGRAM poses; nil
@@ -54,18 +51,15 @@ where there are none."
     (let ((elements (numerics-switch-elements (numerics-program-rates program)))
           (n (length (numerics-program-names program))))
       (when elements
-        (let ((nodes (numerics-gauss-nodes *numerics-quadrature-nodes* 60))
-              (none (mapcar (constantly nil) elements)))
-          (make-numerics-switches
-           :elements elements :rates (numerics-problem-rates problem)
-           :mass (numerics-problem-mass problem) :timed (numerics-problem-timed problem)
-           :events (numerics-new-events (numerics-routine program elements) n
-                                        (mapcar (constantly 0) elements) none nil)
-           :scales (numerics-controls-scales controls)
-           :relative (numerics-controls-relative controls) :end (numerics-controls-end controls)
-           :nodes (mapcar #'numerics-rounded nodes)
-           :weights (mapcar #'numerics-rounded (numerics-gauss-weights nodes))
-           :state (numerics-zeros n) :slope (numerics-zeros n) :sum (numerics-zeros n)))))))
+        (make-numerics-switches
+         :elements elements :rates (numerics-problem-rates problem)
+         :mass (numerics-problem-mass problem) :timed (numerics-problem-timed problem)
+         :events (numerics-new-events (numerics-routine program elements) n
+                                      (mapcar (constantly 0) elements)
+                                      (mapcar (constantly nil) elements) nil)
+         :scales (numerics-controls-scales controls)
+         :relative (numerics-controls-relative controls) :end (numerics-controls-end controls)
+         :state (numerics-zeros n) :slope (numerics-zeros n) :sum (numerics-zeros n))))))
 
 ;;; What a step misses
 
@@ -101,8 +95,7 @@ another."
         (moment (numerics-switches-moment switches)) (state (numerics-switches-state switches))
         (length (* (- to from) (numerics-step-length step))))
     (fill sum 0d0)
-    (loop for node in (numerics-switches-nodes switches)
-          for weight in (numerics-switches-weights switches)
+    (loop for (node . weight) in *numerics-quadrature*
           for share = (+ from (* node (- to from)))
           do (numerics-step-moment step share moment)
              (funcall (the function (numerics-switches-rates switches)) moment
