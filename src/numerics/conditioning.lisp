@@ -29,15 +29,6 @@ where METHOD, a function such as numerics-dopri, does not reach the end."
                  (when (> growth largest) (setq largest growth since time)))))
     (values (* numerics-unit-roundoff largest) since)))
 
-(defun numerics-copied-controls (controls relative end)
-  "CONTROLS with the tolerance RELATIVE, another END and counts of their own."
-  (let ((copy (copy-numerics-controls controls)))
-    (setf (numerics-controls-relative copy) relative
-          (numerics-controls-end copy) end
-          (numerics-controls-looks-for copy) nil
-          (numerics-controls-counts copy) (make-numerics-counts))
-    copy))
-
 (defun numerics-states-on-the-way (method problem controls moment state)
   "List of (time . state): the start and eight later times."
   (let* ((start (aref moment 0)) (end (numerics-controls-end controls))

@@ -94,6 +94,15 @@
                        ; :end-of-stiffness (implicit ones): see auto
   (counts (make-numerics-counts)))
 
+(defun numerics-copied-controls (controls relative end)
+  "CONTROLS with the tolerance RELATIVE, another END and counts of their own."
+  (let ((copy (copy-numerics-controls controls)))
+    (setf (numerics-controls-relative copy) relative
+          (numerics-controls-end copy) end
+          (numerics-controls-looks-for copy) nil
+          (numerics-controls-counts copy) (make-numerics-counts))
+    copy))
+
 ;;; A step that was accepted, as the observer sees it; it holds during the call only.
 
 (defstruct numerics-step
