@@ -2,7 +2,7 @@
 ;;; A run of M x' = X(t, x): the problem made from the rates with numbers put in, the start, what
 ;;; looks on, and the method. What cannot be run is refused before the first step: a name without a
 ;;; value, a start off a constraint or where the equations have no value or divide by a pivot that
-;;; is lost. Look first at numerics-new-run, then at numerics-make-run.
+;;; is lost. Look first at numerics-new-run.
 
 (in-package :maxima)
 

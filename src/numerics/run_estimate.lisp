@@ -21,7 +21,7 @@
 
 (defun numerics-within-time (key function)
   "The fields that FUNCTION gives; KEY says so where the time is up."
-  (multiple-value-bind (fields stop) (core-within *numerics-share-of-time* function)
+  (multiple-value-bind (fields stop) (numerics-within-share function)
     (if stop (list (algebra-field key "its time was up")) fields)))
 
 ;;; The error

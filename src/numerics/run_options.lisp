@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; What a person wants of a run: the start, the span of time, and the options method, points,
-;;; tolerance, events, stop, digits. Each is read here once, from exact numbers (%pi/2 is one), and
-;;; what cannot be meant is refused in one sentence. See numerics-read-wishes first.
+;;; What a person wants of a run: the start, the span of time, and the options that are its wishes.
+;;; The start, the span, points, tolerance and first_step are read here, from exact numbers (%pi/2
+;;; is one), and what cannot be meant is refused in one sentence. See numerics-wishes first.
 
 (in-package :maxima)
 
