@@ -90,8 +90,8 @@ tolerance at which it failed is skipped."
     (dolist (tolerance (numerics-contest-tolerances contest))
       (core-progress "~a at ~a" (core-spelling method) (numerics-tolerance-text tolerance))
       (let ((attempt (if failed
-                      (numerics-skipped-attempt method tolerance failed)
-                      (numerics-measured-attempt contest method tolerance))))
+                         (numerics-skipped-attempt method tolerance failed)
+                         (numerics-measured-attempt contest method tolerance))))
         (unless (or failed (numerics-attempt-reached attempt)) (setq failed attempt))
         (funcall note attempt)
         (when (numerics-attempt-interrupted attempt) (throw 'numerics-interrupted nil))))))
@@ -106,7 +106,7 @@ interrupted."
            (catch 'numerics-interrupted
              (dolist (method (numerics-contest-methods contest) t)
                (numerics-attempts-by contest method
-                                         (lambda (attempt) (push attempt attempts)))))))
+                                     (lambda (attempt) (push attempt attempts)))))))
       (setq stop (or late (and (null value) "interrupted"))))
     (values (reverse attempts) stop)))
 
@@ -158,7 +158,7 @@ interrupted."
 
 (defun numerics-machine-text ()
   "Where seconds were measured."
-  (format nil "~a ~a, ~@[~a~]" (lisp-implementation-type) (lisp-implementation-version)
+  (format nil "~a ~a~@[, ~a~]" (lisp-implementation-type) (lisp-implementation-version)
           (machine-version)))
 
 (defun numerics-told-reference (contest)

@@ -58,7 +58,7 @@
 (defun numerics-bare-run (trial method tolerance)
   "One that only steps to the end."
   (numerics-run-of-trial trial method tolerance
-                     (list '(mlist simp) (second (numerics-trial-ends trial)))))
+                         (list '(mlist simp) (second (numerics-trial-ends trial)))))
 
 (defun numerics-watched-run (trial method tolerance)
   "One with 100 points."
