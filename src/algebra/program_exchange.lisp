@@ -87,6 +87,10 @@ inputs as they are."
   "Names of the inputs that ELEMENTS depend on."
   (mapcar #'algebra-node-left (remove-if-not #'algebra-input-p (algebra-live-nodes elements))))
 
+(defun algebra-open-inputs-of (elements)
+  "Those that are no numbers by themselves, as %pi is."
+  (remove-if (lambda (name) (member name '($%pi $%e))) (algebra-inputs-of elements)))
+
 ;;; Which values are at fault where something vanishes: each without which it would not, or, where
 ;;; there is none, a smallest list of those without which together it would not.
 

@@ -45,6 +45,11 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
   "TEXT after the name of the function that runs."
   (if *core-function* (concatenate 'string *core-function* ": " text) text))
 
+(defun core-unnamed (text)
+  "TEXT of an error without that name."
+  (let ((name (core-named "")))
+    (if (eql (search name text) 0) (subseq text (length name)) text)))
+
 (defun core-signal (text)
   (merror "~A" (core-named text)))
 

@@ -24,7 +24,7 @@
 (defun numerics-value-with (element pairs)
   "The value of ELEMENT with PAIRS, a fixed-point number; nil where a name is left."
   (let ((new (first (algebra-exchanged (list element) (algebra-exchange-by pairs)))))
-    (unless (set-difference (algebra-inputs-of (list new)) '($%pi $%e))
+    (unless (algebra-open-inputs-of (list new))
       (first (catch 'forms-no-value
                (forms-program-values (list new) (forms-new-point nil)))))))
 

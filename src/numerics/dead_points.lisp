@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/back_to_constraints" "numerics/events"
+  (core-require "numerics/back_to_constraints"
                 "numerics/problem" "numerics/small_systems" "numerics/zeros_between"))
 
 (defstruct numerics-dead-points

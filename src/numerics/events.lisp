@@ -201,13 +201,6 @@ has no value there is no zero, and it begins anew after that."
     (replace (numerics-step-to step) (numerics-event-moment event))
     (replace (numerics-step-after step) (numerics-event-state event))))
 
-(defun numerics-undo-step (step)
-  "STEP ends where it begins."
-  (let ((before (copy-seq (numerics-step-before step))))
-    (setf (numerics-step-interpolate step) (lambda (share out) share (replace out before)))
-    (replace (numerics-step-to step) (numerics-step-from step))
-    (replace (numerics-step-after step) before)))
-
 (defun numerics-zeros-of-step (events step)
   "Zeros in STEP, of which more parts are looked at until this proves useless."
   (setf (numerics-events-unseen events) 0)

@@ -134,6 +134,13 @@
         (t (funcall (the function (numerics-step-interpolate step)) share out)
            out)))
 
+(defun numerics-undo-step (step)
+  "STEP ends where it begins."
+  (let ((before (copy-seq (numerics-step-before step))))
+    (setf (numerics-step-interpolate step) (lambda (share out) share (replace out before)))
+    (replace (numerics-step-to step) (numerics-step-from step))
+    (replace (numerics-step-after step) before)))
+
 ;;; How a method ended.
 
 (defstruct numerics-outcome

@@ -150,7 +150,7 @@
 (defun numerics-number-rows (rows)
   "ROWS with numbers in units of 2^-512 for their elements; nil where a name is in them."
   (let ((elements (loop for row in rows append (mapcar #'cdr row))))
-    (unless (remove-if (lambda (name) (member name '($%pi $%e))) (algebra-inputs-of elements))
+    (unless (algebra-open-inputs-of elements)
       (let ((values (forms-program-values elements (forms-new-point nil))))
         (loop for row in rows
               collect (loop for (j) in row collect (cons j (pop values))))))))

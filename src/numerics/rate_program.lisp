@@ -21,8 +21,7 @@
 
 (defun numerics-value-element (name value)
   (let ((element (algebra-program-element value)))
-    (when (or (remove-if (lambda (input) (member input '($%pi $%e)))
-                         (algebra-inputs-of (list element)))
+    (when (or (algebra-open-inputs-of (list element))
               (null (catch 'forms-no-value
                       (forms-program-values (list element) (forms-new-point nil)))))
       (core-error "the value of ~a is a number, found ~a" (core-words (list name))

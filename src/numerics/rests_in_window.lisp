@@ -30,11 +30,6 @@
     (cond (equation (third equation))
           ((numerics-velocity-p name) 0))))
 
-(defun numerics-number-or-nil (e)
-  "The number of E, nil where it is none."
-  (let ((value (and e (car (core-attempt (lambda () ($float e)))))))
-    (and (realp value) (coerce value 'double-float))))
-
 (defun numerics-in-section-p (plane solution)
   "Whether what is held has the values of SOLUTION, or any."
   (loop for (name . held) in (numerics-plane-held plane)
@@ -159,7 +154,7 @@
   (let ((count (numerics-add-zeros rests plane)))
     (cond (why (numerics-say-about
                 rests "equilibria are found by Newton's method, and not judged: ~a"
-                (numerics-reason why)))
+                (core-unnamed why)))
           ((plusp count)
            (numerics-say-about
             rests "the ~[~;point that is~:;points that are~] not decided: the two rates vanish, ~
@@ -171,17 +166,12 @@
     (when points (numerics-add-solutions rests plane (first points)))
     (cond ((numerics-plane-moving plane)
            (unless points
-             (numerics-say-about rests "equilibria are not marked: ~a" (numerics-reason said))))
+             (numerics-say-about rests "equilibria are not marked: ~a" (core-unnamed said))))
           ((not (or (numerics-rests-about rests) (and points (numerics-plane-alone plane))))
            (numerics-say-zeros rests plane (if points nil said))))
     (setf (numerics-rests-found rests)
           (sort (numerics-rests-found rests) #'numerics-before-p :key #'numerics-rest-place))
     rests))
-
-(defun numerics-reason (text)
-  "TEXT of an error without the name of the function that runs."
-  (let ((name (core-named "")))
-    (if (eql (search name text) 0) (subseq text (length name)) text)))
 
 (defun numerics-before-p (place other)
   (destructuring-bind ((u v) (s z)) (list place other)

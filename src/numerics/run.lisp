@@ -37,9 +37,9 @@
   "What has no value in ELEMENTS, as texts."
   (mapcar #'numerics-name-text
           (remove-if (lambda (name)
-                       (or (member name '($t $%pi $%e))
+                       (or (eq name '$t)
                            (member name (forms-rates-states rates) :test #'alike1)))
-                     (algebra-inputs-of elements))))
+                     (algebra-open-inputs-of elements))))
 
 (defun numerics-check-names (rates elements)
   "An error where ELEMENTS hold a name without a number."

@@ -16,14 +16,18 @@ methods with a fixed one, or 0; ESTIMATE and CONDITIONING: whether these are wan
 
 ;;; Numbers
 
-(defun numerics-double (e what)
-  "The double-float number next to the Maxima constant E; WHAT it is, for the message."
+(defun numerics-number-or-nil (e)
+  "The double-float number next to the Maxima constant E; nil where there is none."
   (let ((value (car (core-attempt (lambda () ($float e))))))
-    (cond ((and (floatp value) (numerics-finite-p (coerce value 'double-float)))
-           (coerce value 'double-float))
-          ((mnump e)
-           (core-error "~a is beyond the range of double-float numbers, 1.8e308" what))
-          (t (core-error "~a must be a number, found ~a" what (core-words (list e)))))))
+    (and (floatp value) (numerics-finite-p (coerce value 'double-float))
+         (coerce value 'double-float))))
+
+(defun numerics-double (e what)
+  "The same; an error where there is none. WHAT it is, for the message."
+  (or (numerics-number-or-nil e)
+      (if (mnump e)
+          (core-error "~a is beyond the range of double-float numbers, 1.8e308" what)
+          (core-error "~a must be a number, found ~a" what (core-words (list e))))))
 
 (defun numerics-items (list)
   (and (consp list) (consp (car list)) (eq (caar list) 'mlist) (cdr list)))

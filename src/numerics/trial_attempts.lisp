@@ -43,8 +43,8 @@
 
 (defun numerics-refusal (function)
   "Calls FUNCTION; the text of the error that ends it, without the name of what runs, or nil."
-  (let ((prefix (core-named "")) (text (nth-value 1 (core-caught function))))
-    (if (and text (eql (search prefix text) 0)) (subseq text (length prefix)) text)))
+  (let ((text (nth-value 1 (core-caught function))))
+    (and text (core-unnamed text))))
 
 (defun numerics-limited (seconds)
   (lambda (function) (core-timed seconds function)))
