@@ -27,7 +27,7 @@
                                       (list dynamics constant (test-wrong-list velocities))))
     (numerics-check-exchange ,(lambda (rates new values)
                                 (let ((wrong (copy-forms-rates new)))
-                                  (numerics-set-right-sides wrong (test-wrong-list (numerics-right-sides new)))
+                                  (forms-set-right-sides wrong (test-wrong-list (forms-right-sides new)))
                                   (list rates wrong values)))))
   "Checks, and what makes their arguments wrong.")
 

@@ -43,6 +43,15 @@ perhaps a small one, of parts as large as SIZE. A list, for what is done to all 
                 append (list pivot whole))
           (forms-rates-inertia rates)))
 
+(defun forms-right-sides (rates)
+  "The elements of X."
+  (algebra-output-elements (cdr (assoc '$rates (forms-rates-outputs rates)))))
+
+(defun forms-set-right-sides (rates elements)
+  (setf (forms-rates-outputs rates)
+        (acons '$rates (cons :list elements)
+               (remove '$rates (forms-rates-outputs rates) :key #'car))))
+
 (defun forms-exchanged-rates (rates exchange fault)
   "RATES in the current program, with EXCHANGE and FAULT as algebra-exchanged takes them."
   (let ((copy (copy-forms-rates rates))

@@ -40,14 +40,19 @@ be constant along all motions, and not on some of them only."
 
 (defun forms-stays-constant-p (rates element)
   "Whether ELEMENT is constant along RATES at a random point, as far as that can be told."
-  (let ((point (forms-new-point t)) (output (assoc '$rates (forms-rates-outputs rates))))
-    (or (assoc '$velocities (forms-rates-outputs rates))
-        (> (length (forms-rates-states rates)) *forms-most-judged-states*)
-        (let ((item (forms-program-values-on-all-sides (forms-integral-row rates element) point))
-              (rows (mapcar (lambda (row x)
-                              (forms-program-values-on-all-sides (append row (list x)) point))
-                            (forms-full-mass rates) (cdr (cdr output)))))
-          (or (null item) (some #'null rows) (forms-in-rows-p item rows))))))
+  (or (assoc '$velocities (forms-rates-outputs rates))
+      (> (length (forms-rates-states rates)) *forms-most-judged-states*)
+      (let ((found (forms-program-values-on-all-sides
+                    (append (forms-integral-row rates element)
+                            (loop for row in (forms-full-mass rates)
+                                  for x in (forms-right-sides rates)
+                                  append row collect x))
+                    (forms-new-point t)))
+            (width (1+ (length (forms-rates-states rates)))))
+        (or (null found)
+            (forms-in-rows-p (subseq found 0 width)
+                             (loop for row on (nthcdr width found) by (lambda (l) (nthcdr width l))
+                                   collect (subseq row 0 width)))))))
 
 (defun forms-integral-row (rates element)
   "(dV/dx_1, .., -dV/dt)"

@@ -142,7 +142,7 @@ where it is not found."
   "The elements of the rates of NAMES."
   (loop for name in names
         collect (nth (position name (forms-rates-states rates) :test #'alike1)
-                     (forms-output-list '$rates (forms-rates-outputs rates)))))
+                     (forms-right-sides rates))))
 
 (defparameter *numerics-any-value* '((rat simp) 2 5))
 

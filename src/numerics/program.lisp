@@ -8,7 +8,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes"
-                "algebra/program_record" "forms/program_judge" "forms/rates"))
+                "algebra/program_record" "forms/rates"))
 
 (defstruct numerics-program
   algebra  ; the program in which the elements were made
@@ -31,7 +31,7 @@
 (defun numerics-program-of (rates)
   (make-numerics-program
    :algebra (forms-rates-program rates) :names (forms-rates-states rates)
-   :rates (algebra-output-elements (forms-output '$rates (forms-rates-outputs rates)))
+   :rates (forms-right-sides rates)
    :mass (forms-rates-mass rates)
    :guards (loop for (nil pivot . whole) in (forms-rates-guards rates)
                  collect (algebra-program-divide pivot whole))))

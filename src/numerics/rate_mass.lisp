@@ -44,21 +44,13 @@
   (if (null (forms-rates-mass rates))
       rates
       (let* ((rows (forms-rates-mass rates)) (copy (copy-forms-rates rates)) (kept '())
-             (right (coerce (numerics-right-sides rates) 'vector)))
+             (right (coerce (forms-right-sides rates) 'vector)))
         (dolist (group (numerics-groups rows))
           (unless (numerics-settle-group copy group (numerics-group-rows group rows) right solved)
             (push group kept)))
         (setf (forms-rates-mass copy) (and kept (numerics-kept-rows (reverse kept) rows)))
-        (numerics-set-right-sides copy (coerce right 'list))
+        (forms-set-right-sides copy (coerce right 'list))
         copy)))
-
-(defun numerics-right-sides (rates)
-  (cdr (cdr (assoc '$rates (forms-rates-outputs rates)))))
-
-(defun numerics-set-right-sides (rates elements)
-  (setf (forms-rates-outputs rates)
-        (cons (cons '$rates (cons :list elements))
-              (remove '$rates (forms-rates-outputs rates) :key #'car))))
 
 (defun numerics-settle-group (rates group rows right solved)
   "Divides the elements of GROUP in the vector RIGHT; nil where the group stays."
@@ -243,7 +235,7 @@ message."
 
 (defun numerics-index-columns (rates kernels point)
   "For each r the derivatives of all l.X along it."
-  (let ((right (numerics-right-sides rates)))
+  (let ((right (forms-right-sides rates)))
     (loop for kernel in kernels
           append (loop for r in (numerics-kernel-right kernel)
                        collect (numerics-index-column rates kernels kernel r right point)))))

@@ -7,10 +7,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "algebra/size" "forms/agreement"
-                "forms/fixed" "forms/program_judge" "forms/rates" "forms/value"
-                "numerics/assumed_values" "numerics/jacobian" "numerics/rate_mass"
-                "numerics/program" "numerics/right_side_divisors"))
+                "algebra/program_nodes" "algebra/program_record" "algebra/size"
+                "forms/agreement" "forms/fixed" "forms/program_judge" "forms/rates"
+                "forms/value" "numerics/assumed_values" "numerics/jacobian" "numerics/program"
+                "numerics/rate_mass" "numerics/right_side_divisors" "numerics/sparse"))
 
 ;;; Values.
 
@@ -55,7 +55,9 @@
 
 (defun numerics-fault-division (denominator rates values)
   "The error for a DENOMINATOR of RATES that vanishes with VALUES."
-  (let ((guilty (algebra-vanishing-values denominator values #'numerics-nought-p))
+  (let ((guilty (algebra-vanishing-values
+                 denominator values
+                 (lambda (element) (forms-nought-p (list element) (forms-new-point t)))))
         (guard (find denominator (forms-rates-guards rates) :key #'second)))
     (core-error "~@[with ~{~a~^, ~} ~]the program divides by zero~@[: the pivot of ~a in the mass ~
                  matrix vanishes~]"
@@ -63,13 +65,6 @@
                       collect (format nil "~a = ~a" (core-words (list name))
                                       (numerics-value-text element)))
                 (and guard (core-words (list (first guard)))))))
-
-(defun numerics-nought-p (element)
-  "Whether ELEMENT vanishes, at sight or at a random point."
-  (or (eql element 0)
-      (let ((value (first (catch 'forms-no-value
-                            (forms-program-values (list element) (forms-new-point t))))))
-        (and value (forms-negligible-p value)))))
 
 ;;; The check.
 
@@ -153,7 +148,7 @@ sight."
 
 (defun numerics-operations (rates)
   (count-if-not #'algebra-input-p
-                (algebra-live-nodes (numerics-right-sides rates))))
+                (algebra-live-nodes (forms-right-sides rates))))
 
 (defun numerics-entry-fields (rates)
   "How many entries dX_i/dx_j of RATES there are, and [i, j, value] of those that are constant."
@@ -165,13 +160,10 @@ sight."
            (cons '(mlist simp)
                  (loop for (i j) in (sort (loop for place being the hash-keys of constants
                                                 collect place)
-                                          #'numerics-place-before-p)
+                                          #'numerics-entry-before-p)
                        collect (algebra-list (1+ i) (1+ j)
                                              (algebra-maxima-rational
                                               (gethash (list i j) constants)))))))))
-
-(defun numerics-place-before-p (a b)
-  (or (< (first a) (first b)) (and (= (first a) (first b)) (< (second a) (second b)))))
 
 (defun numerics-constant-mass-p (rates)
   (let ((moving (if (forms-rates-split rates)

@@ -57,19 +57,14 @@
 
 (defun numerics-with-quadratures (rates start)
   "RATES, among whose states are those cyclic coordinates that the equations START name."
-  (let* ((outputs (forms-rates-outputs rates)) (copy (copy-forms-rates rates))
-         (wanted (loop for name in (forms-rates-cyclic rates)
-                       for slope in (forms-output-list '$quadratures outputs)
-                       when (member name (numerics-items start) :key #'second :test #'alike1)
-                         collect (cons name slope))))
-    (cond ((null wanted) rates)
-          (t (setf (forms-rates-states copy)
-                   (append (forms-rates-states rates) (mapcar #'car wanted))
-                   (forms-rates-outputs copy)
-                   (acons '$rates (cons :list (append (forms-output-list '$rates outputs)
-                                                      (mapcar #'cdr wanted)))
-                          (remove '$rates outputs :key #'car)))
-             copy))))
+  (let ((copy (copy-forms-rates rates))
+        (wanted (loop for name in (forms-rates-cyclic rates)
+                      for slope in (forms-output-list '$quadratures (forms-rates-outputs rates))
+                      when (member name (numerics-items start) :key #'second :test #'alike1)
+                        collect (cons name slope))))
+    (setf (forms-rates-states copy) (append (forms-rates-states rates) (mapcar #'car wanted)))
+    (forms-set-right-sides copy (append (forms-right-sides rates) (mapcar #'cdr wanted)))
+    (if wanted copy rates)))
 
 (defun numerics-new-run (rates values start span wishes &key (how :auto))
   "The run of RATES from START, exact values of the states, over SPAN, everything checked; VALUES
