@@ -67,21 +67,6 @@ may tick in 4 ms, too coarse for sums of what is short."
 
 (setq *core-loading* #'core-unhurried)
 
-(defun core-load-share (name there-p)
-  "Whether the package NAME of Maxima's share is there, by THERE-P, once it has been loaded. The
-first load compiles it; another session that does so at the same time may leave half a file to be
-read, so that it is tried again."
-  (flet ((loaded ()
-           (let* ((*standard-output* (make-broadcast-stream))
-                  (*error-output* *standard-output*))
-             (handler-bind ((warning #'muffle-warning))
-               (core-attempt (lambda () (funcall *core-reading* (lambda () ($load name)))))))))
-    (loop for pause in (if ($file_search name) '(0 1 3 10) '(0))
-          until (funcall there-p)
-          do (sleep pause)
-             (core-unhurried #'loaded))
-    (funcall there-p)))
-
 (defun core-next-line-after (now)
   (setq *core-next-line* (+ now (* 2 internal-time-units-per-second))))
 

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/messages" "numerics/decimals" "numerics/problem" "numerics/step_control"))
+  (core-require "core/messages" "core/share_packages" "numerics/decimals" "numerics/problem"
+                "numerics/step_control"))
 
 (defstruct numerics-dlsode
   problem controls

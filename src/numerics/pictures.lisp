@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/new_files"))
+  (core-require "algebra/new_files" "core/share_packages"))
 
 (defstruct numerics-picture
   file   ; its name, nil for the screen

@@ -47,7 +47,7 @@
     (setf (numerics-expansion-time expansion) (numerics-new-series expansion)
           (numerics-expansion-states expansion)
           (loop for nil in elements collect (numerics-new-series expansion)))
-    (multiple-value-bind (fixed moving) 
+    (multiple-value-bind (fixed moving)
         (numerics-fixed-nodes (algebra-live-nodes (append elements masses)))
       (dolist (node fixed)
         (dolist (rule (numerics-node-rules node program expansion)) (funcall rule 0)))
