@@ -6,8 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "forms/fixed" "forms/program_judge" "forms/value" "numerics/right_side_divisors"))
+  (core-require "algebra/program_exchange" "algebra/program_from_expressions" "forms/fixed"
+                "forms/program_judge" "forms/value" "numerics/element_words"))
 
 (defun numerics-check-assumed (pairs)
   "An error where the values PAIRS, ((name . element) ..), are against a relation that is assumed."

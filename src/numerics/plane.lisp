@@ -198,7 +198,7 @@ equations may name velocities and coordinates that are none of the states here."
   (with-algebra-program (numerics-new-plane rates values window)))
 
 (defun numerics-new-plane (rates values window)
-  (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+  (let* ((pairs (numerics-parameter-pairs values rates))
          (rates (numerics-run-rates rates pairs t))
          (axes (progn (numerics-refuse-no-plane rates) (numerics-read-axes window rates)))
          (names (mapcar #'numerics-axis-name axes))

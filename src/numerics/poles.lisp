@@ -9,8 +9,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/event_samples" "numerics/events" "numerics/problem" "numerics/program"
-                "numerics/right_side_divisors" "numerics/routine" "numerics/zeros_between"))
+  (core-require "numerics/element_words" "numerics/event_samples" "numerics/events"
+                "numerics/problem" "numerics/program" "numerics/right_side_divisors"
+                "numerics/routine" "numerics/zeros_between"))
 
 (defstruct numerics-poles
   elements rates routine scales                         ; RATES (moment x out): X

@@ -9,8 +9,8 @@
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "algebra/size"
                 "forms/agreement" "forms/fixed" "forms/program_judge" "forms/rates"
-                "forms/value" "numerics/assumed_values" "numerics/jacobian" "numerics/program"
-                "numerics/rate_mass" "numerics/right_side_divisors" "numerics/sparse"))
+                "forms/value" "numerics/assumed_values" "numerics/element_words"
+                "numerics/jacobian" "numerics/program" "numerics/rate_mass" "numerics/sparse"))
 
 ;;; Values.
 
@@ -28,9 +28,10 @@
                   (core-words (list value))))
     element))
 
-(defun numerics-parameter-pairs (pairs rates)
-  "PAIRS without those of momenta that are states here; other states have no fixed value."
-  (loop for pair in pairs
+(defun numerics-parameter-pairs (values rates)
+  "The pairs of VALUES, equations, without those of momenta that are states here; other states have
+no fixed value."
+  (loop for pair in (numerics-value-pairs values)
         for name = (car pair)
         do (when (and (or (eq name '$t) (member name (forms-rates-states rates) :test #'alike1))
                       (not (member name (forms-rates-momenta rates))))
@@ -195,7 +196,7 @@ M as far as it goes; and whether M is constant."
 (defun $numerics_rate_program (rates values solved)
   "The record of RATES with VALUES, equations name = number."
   (with-algebra-program
-    (let ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates)))
+    (let ((pairs (numerics-parameter-pairs values rates)))
       (multiple-value-bind (new constant) (numerics-run-rates rates pairs solved)
         (numerics-program-record
          new

@@ -1,13 +1,11 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; What a right-hand side divides by, as far as it may change its sign: the factors of its
-;;; denominators without those that are sums of squares and the like. And elements as expressions,
-;;; for messages. See numerics-divisors first.
+;;; denominators without those that are sums of squares and the like. See numerics-divisors first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes"
-                "algebra/program_record" "algebra/size"))
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes"))
 
 (defun numerics-divisors (elements positive)
   "What ELEMENTS divide by and what may change its sign; POSITIVE, elements, does not."
@@ -46,20 +44,3 @@
                    ((:root :power :exponential :hyperbolic-cosine))
                    (t (pushnew e found))))))
     found))
-
-;;; For messages
-
-(defparameter *numerics-longest-written-element* 12 "Operations.")
-
-(defun numerics-element-words (element)
-  "ELEMENT as a person writes it; nil where that is long."
-  (when (<= (count-if-not #'algebra-input-p (algebra-live-nodes (list element)))
-            *numerics-longest-written-element*)
-    (labels ((written (e)
-               (cond ((not (algebra-node-p e)) (if (numberp e) (algebra-maxima-rational e) e))
-                     ((algebra-input-p e) (algebra-node-left e))
-                     (t (algebra-written-node e #'written)))))
-      (core-words (list (written element))))))
-
-(defun numerics-value-text (element)
-  (or (numerics-element-words element) "its value"))

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/compile" "numerics/machine" "numerics/plan"))
+  (core-require "numerics/compile" "numerics/machine" "numerics/native" "numerics/plan"))
 
 (defparameter *numerics-calls-worth-compiling* 40000)
 
@@ -26,9 +26,9 @@
 
 (defun numerics-made (make plan)
   "What MAKE makes of PLAN; the time counts."
-  (let ((start (core-clock)))
+  (let ((start (numerics-working-seconds)))
     (unwind-protect (funcall make plan)
-      (incf *numerics-compile-seconds* (- (core-clock) start)))))
+      (incf *numerics-compile-seconds* (- (numerics-working-seconds) start)))))
 
 (defun numerics-routine-of-plan (plan how calls)
   "Two functions, (time x out), and (seed out) for plans with seeds."

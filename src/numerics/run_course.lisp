@@ -6,10 +6,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "forms/rates" "numerics/back_to_constraints" "numerics/dead_points"
-                "numerics/decimals" "numerics/drifts" "numerics/events" "numerics/jacobian"
-                "numerics/native" "numerics/observers" "numerics/poles" "numerics/problem"
-                "numerics/right_side_divisors" "numerics/routine" "numerics/run"
-                "numerics/run_options" "numerics/switches"))
+                "numerics/decimals" "numerics/drifts" "numerics/element_words" "numerics/events"
+                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
+                "numerics/problem" "numerics/routine" "numerics/run" "numerics/run_options"
+                "numerics/switches"))
 
 ;;; Methods
 
@@ -146,7 +146,7 @@ steps; for others a part of an observer, or nil."
 interrupted it, and whether it was the latter. WITHIN calls a function within a time, as
 core-within."
   (let* ((method (numerics-prepare-method run)) (observer (numerics-run-observer run))
-         (began (core-clock)) (compiled *numerics-compile-seconds*) (outcome nil))
+         (compiled *numerics-compile-seconds*) (outcome nil))
     (setf (numerics-simulation-began run) (numerics-working-seconds))
     (multiple-value-bind (value stop)
         (funcall within
@@ -161,7 +161,8 @@ core-within."
       (when (eq value :interrupted)
         (setq stop (format nil "interrupted~@[ at ~a~]" *core-doing*)))
       (let ((compilation (- *numerics-compile-seconds* compiled)))
-        (setf (numerics-simulation-seconds run) (- (core-clock) began compilation)
+        (setf (numerics-simulation-seconds run)
+              (- (numerics-working-seconds) (numerics-simulation-began run) compilation)
               (numerics-simulation-compiled-on-the-way run) compilation
               (numerics-simulation-outcome run) outcome))
       (when outcome (numerics-finish-rows (numerics-simulation-rows run) outcome))

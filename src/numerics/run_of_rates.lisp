@@ -14,7 +14,7 @@
 (defun numerics-settled-run (rates values start span wishes &key (how :auto))
   "Two values: the run, ready to be made, of RATES with VALUES from START over SPAN, and the exact
 start values of its states. HOW as of numerics-problem-of."
-  (let* ((pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+  (let* ((pairs (numerics-parameter-pairs values rates))
          (rates (numerics-with-quadratures
                  (numerics-run-rates rates pairs (numerics-mass-wanted wishes)) start))
          (exact (numerics-start-values rates start values)))

@@ -11,10 +11,9 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "numerics/event_samples"
+                "algebra/program_nodes" "numerics/element_words" "numerics/event_samples"
                 "numerics/events" "numerics/problem" "numerics/program" "numerics/quadrature"
-                "numerics/right_side_divisors" "numerics/routine" "numerics/sparse"
-                "numerics/step_control"))
+                "numerics/routine" "numerics/sparse" "numerics/step_control"))
 
 (defun numerics-switch-elements (elements)
   "The arguments of signs and absolute values in ELEMENTS, and the ordinates of angles."

@@ -27,7 +27,7 @@
   "What the option PLOT wants of the rows of RATES with VALUES."
   (with-algebra-program
     (let* ((expressions (numerics-read-plot plot))
-           (pairs (numerics-parameter-pairs (numerics-value-pairs values) rates))
+           (pairs (numerics-parameter-pairs values rates))
            (rates (numerics-with-quadratures (numerics-exchanged-rates rates pairs) start))
            (elements (algebra-exchanged (mapcar #'algebra-program-element expressions)
                                         (algebra-exchange-by pairs))))
