@@ -36,7 +36,7 @@ session() {
   } >"$1/session.mac"
   (cd "$1" && "$root/tools/maxima" --very-quiet <session.mac >answers 2>&1)
   (cd "$1" && awk '/^== [0-9]+$/ { printf "%s", text >$2; text = ""; next }
-                         /^[A-Za-z]*: .*, [0-9]+ s *$/ { next } # progress tells the time
+                         /((computing|reading).*|^[A-Za-z]*: .*), [0-9]+ s *$/ { next } # progress tells the time
                          { text = text $0 "\n" }' answers)
 }
 

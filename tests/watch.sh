@@ -6,6 +6,7 @@
 here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
 root=$here/..
 . "$here/check"
+. "$here/session"
 
 maxima() { # HEAP: a session in a heap of so many megabytes; what it says. The time allowed only ends a hang
   MAXIMA_LISP_OPTIONS="--dynamic-space-size $1 --disable-ldb" timeout -k 5 1000 "$root/tools/maxima" --very-quiet 2>&1
@@ -55,20 +56,13 @@ for heap in 512 1024; do
 done
 
 # Ctrl-C in the middle of a call: the session goes on and no timer is left
-interrupt() {
-  mkfifo input && mkfifo end
-  timeout -k 5 300 "$root/tools/maxima" --very-quiet <input >output 2>&1 &
-  maxima_pid=$!
-  exec 3>input
-  printf 'display2d: false$ load("analysis")$\nK: genmatrix(lambda([i, j], concat(a, min(i, j), max(i, j))), 12, 12)$\nprint(">> ready")$\n' >&3
-  printf 'CharacteristicPolynomial(K, x);\n' >&3
-  until grep -q 'computing Char' output || ! kill -0 "$maxima_pid" 2>/dev/null; do sleep 0.1; done
-  pkill -INT -P "$maxima_pid" 2>/dev/null || kill -INT "$maxima_pid"
-  printf 'print(">> after", RootCount(x^2 - 3*x + 1, x))$\n:lisp (format t ">> timers ~a~%%" (sb-ext:list-all-timers))\nquit();\n' >&3
-  exec 3>&-
-  wait "$maxima_pid"
-}
-interrupt
+session_begins
+type_in 'display2d: false$ load("analysis")$' 'K: genmatrix(lambda([i, j], concat(a, min(i, j), max(i, j))), 12, 12)$' \
+  'print(">> ready")$' 'CharacteristicPolynomial(K, x);'
+until_said 'computing Char'
+interrupt_session
+type_in 'print(">> after", RootCount(x^2 - 3*x + 1, x))$' ':lisp (format t ">> timers ~a~%" (sb-ext:list-all-timers))'
+session_ends
 check "Ctrl-C ends the call and the session goes on" "$(grep -c '>> after \[left = 0,axis = 0,right = 2\]' output)" 1
 check "Ctrl-C leaves no timer" "$(grep -c '>> timers NIL' output)" 1
 

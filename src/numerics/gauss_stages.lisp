@@ -60,6 +60,11 @@
 
 ;;; First guesses.
 
+(defmacro numerics-by-stages (stages loop-of)
+  "The loop that the macro LOOP-OF makes for a known number of STAGES, of which there are 1 to 6."
+  `(case ,stages
+     ,@(loop for known from 1 to 6 collect `(,known (,loop-of ,known)))))
+
 (defmacro numerics-unrolled-mix (stages)
   "The loop of numerics-gauss-mix for a known number of STAGES: three times as fast."
   (let ((gains (loop for j below stages collect (intern (format nil "GAIN~d" j)))))
@@ -79,13 +84,7 @@
          (split (numerics-gauss-run-split run)) (stages (numerics-gauss-run-stages run))
          (columns (floor (length matrix) stages)))
     (declare (type numerics-index stages n columns split))
-    (case stages
-      (1 (numerics-unrolled-mix 1))
-      (2 (numerics-unrolled-mix 2))
-      (3 (numerics-unrolled-mix 3))
-      (4 (numerics-unrolled-mix 4))
-      (5 (numerics-unrolled-mix 5))
-      (6 (numerics-unrolled-mix 6)))))
+    (numerics-by-stages stages numerics-unrolled-mix)))
 
 (defun numerics-gauss-foretell (run matrix memory known)
   "The increments by MATRIX from the last KNOWN of MEMORY; a sweep does not need those of q."
@@ -155,13 +154,7 @@
         (quotients (numerics-gauss-table-quotients (numerics-gauss-run-table run)))
         (stages (numerics-gauss-run-stages run)) (n (numerics-gauss-run-size run)))
     (declare (type numerics-vector quotients) (type numerics-index stages n))
-    (case stages
-      (1 (numerics-unrolled-states 1))
-      (2 (numerics-unrolled-states 2))
-      (3 (numerics-unrolled-states 3))
-      (4 (numerics-unrolled-states 4))
-      (5 (numerics-unrolled-states 5))
-      (6 (numerics-unrolled-states 6)))))
+    (numerics-by-stages stages numerics-unrolled-states)))
 
 (defmacro numerics-with-gauss-increments ((run from) &body body)
   "BODY, in which (take i) makes the increments of stage i from place FROM on from the slopes in
