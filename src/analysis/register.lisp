@@ -35,6 +35,7 @@
 (core-argument :rates "equations")
 (core-argument :integrals "integrals")
 (core-argument :vanishing "within" "manifold")
+(core-argument :conditions "conditions")
 
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
 
@@ -205,6 +206,12 @@
   (list "multipliers" *analysis-none*) (list "solution" *analysis-none*))
 (core-rule "integrals_everywhere" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
   "analysis_integrals_everywhere" "known_integrals" (list "level" *analysis-none*))
+
+;;; Multipliers
+
+(core-public "EliminateMultipliers" :forms '(("conditions" "conditions" "multipliers")))
+(core-rule "EliminateMultipliers" :any "analysis/multipliers" "analysis_eliminate_multipliers"
+  "conditions" "multipliers")
 
 ;;; Matrices and forms
 
