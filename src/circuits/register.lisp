@@ -41,6 +41,8 @@
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
+
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
 
