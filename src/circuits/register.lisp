@@ -43,6 +43,9 @@
 
 (core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
 
+(core-rule "PortHamiltonian" '("circuit") "circuits/port_hamiltonian"
+  "circuits_port_hamiltonian" "circuit")
+
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
 
