@@ -101,7 +101,9 @@
 
 ;;; Port-Hamiltonian form
 
-(core-public "PortHamiltonian" :options '("momenta" "rayleigh" "forces") :kinds *forms-kinds*)
+(core-public "PortHamiltonian"
+  :forms '(("lagrangian" "Lagrangian" "coordinates"))
+  :options '("momenta" "rayleigh" "forces") :kinds *forms-kinds*)
 (core-rule "PortHamiltonian" :any "forms/port_hamiltonian" "forms_port_hamiltonian"
   "Hamiltonian" "HamiltonEquations" "coordinates" "actions")
 
