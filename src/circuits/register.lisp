@@ -51,7 +51,7 @@
 
 (core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
 
-(core-rule "PortHamiltonian" '("circuit") "circuits/port_hamiltonian"
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports"
   "circuits_port_hamiltonian" "circuit")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
