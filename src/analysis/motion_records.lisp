@@ -48,3 +48,9 @@ conditions, which vanish; what is apart from zero."
 (core-record analysis-judgement
   "What a method, or a theorem, says: cases [[condition, ..], place], see conditions.mac."
   method cases)
+
+(core-record analysis-mixed
+  "A mixed potential P(i, u) with L*i' = P_i, C*u' = -P_u: names of the currents and voltages, lists
+of the slopes P_i, P_u; as lists of rows the matrices of inductances and capacitances, `resistance'
+A = -P_ii, `conductance' B = P_uu, gamma = P_iu."
+  whole currents voltages i_slopes u_slopes inductance capacitance resistance conductance gamma)

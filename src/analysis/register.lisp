@@ -248,3 +248,11 @@
                                ("QuadraticIntegrals" "analysis_quadratic_integrals"))
       do (core-public name :forms '(("matrices" "A" "variables")))
          (core-rule name :any "analysis/linear_system" function "A" "variables"))
+
+;;; A mixed potential as Lyapunov's function
+
+(core-public "BraytonMoser" :options '("where" "solution") :kinds '("circuit"))
+(core-rule "BraytonMoser" '("circuit") "analysis/brayton_moser" "analysis_brayton_moser"
+  "MixedPotential" "potential_stores" *analysis-where*)
+(core-rule-given "solution" "BraytonMoser" '("circuit") "analysis/brayton_moser_verdict"
+  "analysis_brayton_moser_judged" "MixedPotential" "potential_stores" *analysis-where* "motion")
