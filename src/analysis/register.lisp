@@ -198,13 +198,33 @@
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers") :kinds (core-kinds-giving "known_integrals"))
+  :options '("where" "unknowns" "multipliers" "function")
+  :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
 (core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
   "analysis_routh_lyapunov"
   "state_equations" "integrals_everywhere" "variables" "special_cases_sought"
   (list "multipliers" *analysis-none*) (list "solution" *analysis-none*))
 (core-rule "integrals_everywhere" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
   "analysis_integrals_everywhere" "known_integrals" (list "level" *analysis-none*))
+
+;;; Mechanical systems as equations of the first order with integrals
+
+(core-rule "routh_system" *analysis-motions* "analysis/reduced_system" "analysis_routh_system"
+  "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) "actions"
+  *analysis-laws*)
+(core-rule-later "routh_system_asked" *analysis-motions* "routh_system")
+(core-rule-later "euler_poisson_asked" '("mechanical") "EulerPoisson")
+(core-rule-later "variables_asked" '("mechanical") "variables_in_coordinates")
+(core-rule-same-as "reduced_system" (remove "mechanical" *analysis-motions* :test #'string=)
+  "routh_system")
+(core-rule-same-as "reduced_system" '("mechanical") "routh_system" :given '("function" $routh))
+(core-rule "reduced_system" '("mechanical") "analysis/reduced_system" "analysis_reduced_system"
+  "euler_poisson_asked" "variables_asked" "routh_system_asked")
+
+(core-rule "RouthLyapunov" *analysis-motions* "analysis/routh_lyapunov"
+  "analysis_routh_lyapunov_motion"
+  "reduced_system" "coordinates" "special_cases_sought" (list "multipliers" *analysis-none*)
+  (list "solution" *analysis-none*))
 
 ;;; Matrices and forms
 
