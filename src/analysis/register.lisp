@@ -22,6 +22,8 @@
 (defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
 (defparameter *analysis-variables* (list "variables" *analysis-none*))
 
+(defparameter *analysis-integrals* (list "integrals" *analysis-none*))
+
 (defparameter *analysis-functions* (list "functions_derived" *analysis-none*)
   "What equations are derivatives of.")
 
@@ -166,8 +168,16 @@
 (core-public "Stability"
   :forms '(("equations" "equations" "solution"))
   :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
-(core-rule "Stability" *analysis-states* "analysis/stability" "analysis_stability_state"
-  "motion")
+(core-rule "Stability"
+  (set-difference *analysis-states* (core-kinds-giving "known_integrals") :test #'string=)
+  "analysis/stability" "analysis_stability_state" "motion")
+(core-rule "Stability" '("equations") "analysis/stability_by_integrals"
+  "analysis_stability_known"
+  "motion" *analysis-integrals* (list "level" *analysis-none*) *analysis-laws*)
+(core-rule "Stability" '("poisson") "analysis/stability_by_integrals"
+  "analysis_stability_poisson"
+  "motion" "hamiltonian" *analysis-integrals* "variables" (list "bracket" *analysis-none*)
+  (list "algebra" *analysis-none*) *analysis-laws*)
 (core-rule "Stability" *analysis-motions* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
