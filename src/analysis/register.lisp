@@ -178,7 +178,12 @@
   "analysis_stability_poisson"
   "motion" "hamiltonian" *analysis-integrals* "variables" (list "bracket" *analysis-none*)
   (list "algebra" *analysis-none*) *analysis-laws*)
-(core-rule "Stability" *analysis-motions* "analysis/stability_by_energy"
+(core-rule "Stability" '("mechanical") "analysis/stability_of_bodies"
+  "analysis_stability_of_bodies"
+  "coordinates" "solution" "special_cases_sought" "motion_asked" "Lagrangian_asked" "actions"
+  "reduced_system_asked")
+(core-rule "Stability" (remove "mechanical" *analysis-motions* :test #'string=)
+  "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
 
@@ -223,13 +228,17 @@
   "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) "actions"
   *analysis-laws*)
 (core-rule-later "routh_system_asked" *analysis-motions* "routh_system")
+(core-rule-later "motion_asked" *analysis-motions* "motion")
+(core-rule-later "Lagrangian_asked" *analysis-motions* "Lagrangian")
+(core-rule-later "reduced_system_asked" *analysis-motions* "reduced_system")
 (core-rule-later "euler_poisson_asked" '("mechanical") "EulerPoisson")
 (core-rule-later "variables_asked" '("mechanical") "variables_in_coordinates")
 (core-rule-same-as "reduced_system" (remove "mechanical" *analysis-motions* :test #'string=)
   "routh_system")
 (core-rule-same-as "reduced_system" '("mechanical") "routh_system" :given '("function" $routh))
 (core-rule "reduced_system" '("mechanical") "analysis/reduced_system" "analysis_reduced_system"
-  "euler_poisson_asked" "variables_asked" "routh_system_asked")
+  "euler_poisson_asked" "variables_asked" "routh_system_asked" *analysis-functions*
+  *analysis-laws* "coordinates")
 
 (core-rule "RouthLyapunov" *analysis-motions* "analysis/routh_lyapunov"
   "analysis_routh_lyapunov_motion"
