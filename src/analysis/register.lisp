@@ -29,7 +29,7 @@
 
 ;;; Arguments. K is a function, and a matrix where forces are given by theirs.
 
-(core-argument :formula "K" "polynomial")
+(core-argument :formula "K" "polynomial" "V")
 (core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
 (core-argument :variables "variables")
 (core-argument :variable "lambda" "u")
@@ -181,6 +181,14 @@
 (core-rule "Stability" *analysis-motions* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
+
+;;; Lyapunov's second method
+
+(core-public "LyapunovTest"
+  :forms '(("equations" "equations" "V" "solution"))
+  :trailing '("V" "solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
+(core-rule "LyapunovTest" *analysis-kinds* "analysis/lyapunov_test" "analysis_lyapunov_test"
+  "motion" "V" *analysis-laws*)
 
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
