@@ -266,3 +266,14 @@
                                ("QuadraticIntegrals" "analysis_quadratic_integrals"))
       do (core-public name :forms '(("matrices" "A" "variables")))
          (core-rule name :any "analysis/linear_system" function "A" "variables"))
+
+(core-public "PolynomialIntegrals"
+  :forms '(("equations" "equations" "degree"))
+  :trailing '("degree") :options '("where" "integrals") :kinds *analysis-states*)
+(loop for (kinds integrals) in `((,(remove "poisson" *analysis-states* :test #'string=)
+                                  ,*analysis-integrals*)
+                                 (("poisson") "poisson_integrals"))
+      do (core-rule "PolynomialIntegrals" kinds "analysis/polynomial_integrals"
+           "analysis_polynomial_integrals"
+           "state_equations" *analysis-variables* "degree" integrals
+           (list "level" *analysis-none*) "special_cases"))
