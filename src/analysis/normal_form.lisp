@@ -11,8 +11,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/common_roots" "algebra/evaluate" "algebra/general_form" "algebra/kernels"
-                "algebra/normal" "algebra/quotient" "algebra/relations" "algebra/scan"
-                "algebra/size"))
+                "algebra/normal" "algebra/quotient" "algebra/relations" "algebra/scan"))
 
 (defstruct (analysis-frequencies (:conc-name analysis-frequencies-))
   variables                                   ; the polynomials' symbols of lambda1, lambda2
@@ -130,25 +129,26 @@ lambda1^2 = s. FIRST and SECOND are a, b or s."
 
 (defun analysis-half-bracket (cubic betas inverses wanted)
   "The WANTED terms of 1/2*{H3, chi}, each a list of quotients."
-  (let ((table (make-hash-table :test #'equal)))
-    (loop for m being the hash-keys of cubic using (hash-value x)
-          do (loop for n being the hash-keys of cubic using (hash-value y)
-                   do (loop for beta in betas
-                            for k in '(0 2)
-                            do (analysis-put-bracket table m x n y k beta inverses wanted))))
-    table))
+  (let ((table (make-hash-table :test #'equal))
+        (terms (loop for m being the hash-keys of cubic using (hash-value x) collect (cons m x))))
+    (dolist (p terms table)
+      (dolist (q terms)
+        (analysis-put-bracket table p q (cons 0 (first betas)) inverses wanted)
+        (analysis-put-bracket table p q (cons 2 (second betas)) inverses wanted)))))
 
-(defun analysis-put-bracket (table m x n y k beta inverses wanted)
-  "The part of 1/2*{x*eta^m, y/(n.lambda)*eta^n} in the pair of places K, K + 1."
-  (let ((number (- (* (nth k m) (nth (1+ k) n)) (* (nth (1+ k) m) (nth k n))))
-        (exponents (loop for i in m for j in n for place from 0
-                         collect (- (+ i j) (if (<= k place (1+ k)) 1 0)))))
-    (when (and (/= number 0) (member exponents wanted :test #'equal))
-      (let ((inverse (cdr (assoc (analysis-divisor-numbers n) inverses :test #'equal))))
-        (analysis-put-term table exponents
-                           (analysis-product
-                            (analysis-product (cons number 2) beta)
-                            (analysis-product inverse (analysis-product x y))))))))
+(defun analysis-put-bracket (table p q pair inverses wanted)
+  "The part of 1/2*{x*eta^m, y/(n.lambda)*eta^n} in the PAIR (k . beta), the places k and k + 1, of
+P = (m . x), Q = (n . y)."
+  (destructuring-bind ((m . x) (n . y) (k . beta)) (list p q pair)
+    (let ((number (- (* (nth k m) (nth (1+ k) n)) (* (nth (1+ k) m) (nth k n))))
+          (exponents (loop for i in m for j in n for place from 0
+                           collect (- (+ i j) (if (<= k place (1+ k)) 1 0)))))
+      (when (and (/= number 0) (member exponents wanted :test #'equal))
+        (let ((inverse (cdr (assoc (analysis-divisor-numbers n) inverses :test #'equal))))
+          (analysis-put-term table exponents
+                             (analysis-product
+                              (analysis-product (cons number 2) beta)
+                              (analysis-product inverse (analysis-product x y)))))))))
 
 (defun analysis-normal-terms (cubic quartic betas inverses wanted)
   (let ((table (analysis-half-bracket cubic betas inverses wanted)))
@@ -183,12 +183,13 @@ lambda1^2 = s. FIRST and SECOND are a, b or s."
                                            :ratio (third relation))))
           (funcall function (lambda (e) (analysis-reduced (value e)))))))))
 
-(defun $analysis_normal_coefficients (terms modes betas inverses lambdas relation wanted)
+(defun $analysis_normal_coefficients (terms modes inverses lambdas relation wanted)
   "Coefficients of the WANTED monomials of the normal form. TERMS [coefficient, exponents] of H3 and
-H4 in z, MODES the rows z_i in eta, INVERSES [[a, b], 1/(a*lambda1 + b*lambda2)], RELATION [a, b] or
-[s, s, r]; of the third degree those of H3."
-  (analysis-with-frequencies (value (list terms modes betas inverses) lambdas relation)
-    (let* ((forms (loop for row in (cdr modes) collect (analysis-linear-form (cdr row) value)))
+H4 in z, MODES [rows z_i in eta, betas, ..], INVERSES [[a, b], 1/(a*lambda1 + b*lambda2)], RELATION
+[a, b] or [s, s, r]; of the third degree those of H3."
+  (analysis-with-frequencies (value (list terms modes inverses) lambdas relation)
+    (let* ((forms (loop for row in (cdr (second modes))
+                        collect (analysis-linear-form (cdr row) value)))
            (cache (make-hash-table :test #'equal))
            (all (loop for (nil c e) in (cdr terms) collect (cons (cdr e) (funcall value c))))
            (asked (mapcar #'cdr (cdr wanted)))
@@ -198,7 +199,7 @@ H4 in z, MODES the rows z_i in eta, INVERSES [[a, b], 1/(a*lambda1 + b*lambda2)]
                        (analysis-normal-terms
                         cubic
                         (analysis-in-eta (analysis-terms-of-degree 4 all) forms cache asked)
-                        (mapcar value (cdr betas))
+                        (mapcar value (cdr (third modes)))
                         (loop for (nil numbers e) in (cdr inverses)
                               collect (cons (cdr numbers) (funcall value e)))
                         asked))))

@@ -176,8 +176,7 @@
   "motion" *analysis-integrals* (list "level" *analysis-none*) *analysis-laws*)
 (core-rule "Stability" '("poisson") "analysis/stability_by_integrals"
   "analysis_stability_poisson"
-  "motion" "hamiltonian" *analysis-integrals* "variables" (list "bracket" *analysis-none*)
-  (list "algebra" *analysis-none*) *analysis-laws*)
+  "motion" "hamiltonian" *analysis-integrals* "structure_matrix" *analysis-laws*)
 (core-rule "Stability" *analysis-motions* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
