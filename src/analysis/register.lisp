@@ -31,7 +31,7 @@
 
 ;;; Arguments. K is a function, and a matrix where forces are given by theirs.
 
-(core-argument :formula "K" "polynomial")
+(core-argument :formula "K" "polynomial" "V")
 (core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
 (core-argument :variables "variables")
 (core-argument :variable "lambda" "u")
@@ -194,8 +194,7 @@
   "motion" *analysis-integrals* (list "level" *analysis-none*) *analysis-laws*)
 (core-rule "Stability" '("poisson") "analysis/stability_by_integrals"
   "analysis_stability_poisson"
-  "motion" "hamiltonian" *analysis-integrals* "variables" (list "bracket" *analysis-none*)
-  (list "algebra" *analysis-none*) *analysis-laws*)
+  "motion" "hamiltonian" *analysis-integrals* "structure_matrix" *analysis-laws*)
 (core-rule "Stability" '("mechanical") "analysis/stability_of_bodies"
   "analysis_stability_of_bodies"
   "coordinates" "solution" "special_cases_sought" "motion_asked" "Lagrangian_asked" "actions"
@@ -203,6 +202,14 @@
 (core-rule "Stability" *analysis-bodiless* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
+
+;;; Lyapunov's second method
+
+(core-public "LyapunovTest"
+  :forms '(("equations" "equations" "V" "solution"))
+  :trailing '("V" "solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
+(core-rule "LyapunovTest" *analysis-kinds* "analysis/lyapunov_test" "analysis_lyapunov_test"
+  "motion" "V" *analysis-laws*)
 
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
@@ -315,3 +322,14 @@
   "MixedPotential" "potential_stores" *analysis-where*)
 (core-rule-given "solution" "BraytonMoser" '("circuit") "analysis/brayton_moser_verdict"
   "analysis_brayton_moser_judged" "MixedPotential" "potential_stores" *analysis-where* "motion")
+
+(core-public "PolynomialIntegrals"
+  :forms '(("equations" "equations" "degree"))
+  :trailing '("degree") :options '("where" "integrals") :kinds *analysis-states*)
+(loop for (kinds integrals) in `((,(remove "poisson" *analysis-states* :test #'string=)
+                                  ,*analysis-integrals*)
+                                 (("poisson") "poisson_integrals"))
+      do (core-rule "PolynomialIntegrals" kinds "analysis/polynomial_integrals"
+           "analysis_polynomial_integrals"
+           "state_equations" *analysis-variables* "degree" integrals
+           (list "level" *analysis-none*) "special_cases"))
