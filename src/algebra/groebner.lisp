@@ -11,18 +11,21 @@
   (core-require "algebra/size"))
 
 (defvar *algebra-degree-order* nil
-  "true: monomials in the order of their degrees (graded, reversed); false: lexicographic.")
+  "true: monomials in the order of their degrees (graded, reversed); first: by the first exponent,
+then so; false: lexicographic.")
 (defvar *algebra-work-left* 0 "how many coefficients may still be formed")
 (defvar *algebra-taken* nil "polynomials in parameters that were taken as not zero")
 
 ;;; Monomials
 
 (defun algebra-greater-monomial-p (a b)
-  (if *algebra-degree-order*
-      (algebra-greater-degree-p a b)
-      (loop for x fixnum in a
-            for y fixnum in b
-            unless (= x y) return (> x y))))
+  (cond ((null *algebra-degree-order*)
+         (loop for x fixnum in a
+               for y fixnum in b
+               unless (= x y) return (> x y)))
+        ((and (eq *algebra-degree-order* 'first) (/= (the fixnum (first a)) (the fixnum (first b))))
+         (> (the fixnum (first a)) (the fixnum (first b))))
+        (t (algebra-greater-degree-p a b))))
 
 (defun algebra-greater-degree-p (a b)
   (let ((of-a (reduce #'+ a))
@@ -136,16 +139,19 @@
 
 ;;; Buchberger's algorithm
 
-(defun algebra-basis-of (polynomials)
-  "The reduced Groebner basis in the order at hand."
-  (let ((basis (make-array 8 :adjustable t :fill-pointer 0))
+(defun algebra-basis-of (polynomials &optional known degree)
+  "The reduced Groebner basis in the order at hand of POLYNOMIALS and the basis KNOWN; what does not
+come from pairs of more than a DEGREE."
+  (let ((basis (make-array (max 8 (length known)) :adjustable t :fill-pointer 0))
         (pairs nil))
+    (dolist (p known) (vector-push-extend p basis))
     (dolist (p polynomials)
       (setq pairs (algebra-joined-to-basis p basis pairs)))
     (loop while pairs
           do (let ((pair (algebra-next-pair pairs)))
                (setq pairs (delete pair pairs :test #'eq))
-               (unless (algebra-superfluous-pair-p pair basis pairs)
+               (unless (or (and degree (> (reduce #'+ (third pair)) degree))
+                           (algebra-superfluous-pair-p pair basis pairs))
                  (destructuring-bind (i j lcm) pair
                    (declare (ignore lcm))
                    (setq pairs (algebra-joined-to-basis
