@@ -20,20 +20,21 @@
 (defvar *algebra-factors-found* nil "the factors of elements that were met, by their terms")
 
 (defstruct (algebra-branch (:conc-name algebra-branch-))
-  basis           ; elements without z
-  inverse         ; those with z
+  elements        ; a basis, z in some
   product         ; what does not vanish
   new)            ; polynomials that vanish as well
 
-(defun $algebra_components (polynomials names apart)
+(defun $algebra_components (polynomials names apart work)
   "[[[[e, ..], dimension], ..], taken]: components where POLYNOMIALS vanish and none of APART does,
-and the parameters that were taken as not zero; the dimension is false where no basis was found.
-false where there are roots or functions of NAMES, a sentence where there is too much."
+and the parameters that were taken as not zero; the dimension is false where no basis was found
+within the WORK, a count of coefficients.  false where there are roots or functions of NAMES, a
+sentence where there is too much."
   (algebra-with-polynomials `((mlist) ,@(cdr polynomials) ,@(cdr apart)) names
     (lambda (terms numbers kernels)
       (declare (ignore numbers))
       (let* ((*algebra-taken* nil)
              (*algebra-degree-order* 'first)
+             (*algebra-work-left* (core-sized work))
              (*algebra-factors-found* (make-hash-table :test #'equal))
              (of-apart (length (cdr apart)))
              (components (algebra-components-of (butlast terms of-apart) (last terms of-apart)
@@ -50,25 +51,41 @@ false where there are roots or functions of NAMES, a sentence where there is too
 (defun algebra-components-of (polynomials apart kernels)
   "A list of (basis . dimension)."
   (let ((waiting (list (algebra-first-branch polynomials apart (length kernels))))
+        (work *algebra-work-left*)
         (count 0)
         (components '()))
     (loop while waiting
-          do (let* ((branch (algebra-with-basis (pop waiting)))
-                    (parts (algebra-branch-parts branch kernels)))
-               (when (> (incf count) (core-sized *algebra-most-components*))
-                 (throw 'algebra-too-large 'too-large))
-               (cond ((algebra-everywhere-nonzero-p (algebra-branch-basis branch)))
-                     (parts (setq waiting (append parts waiting)))
-                     (t (push (cons (algebra-ideal-generators (algebra-branch-basis branch))
-                                    (algebra-dimension (algebra-branch-basis branch)))
-                              components)))))
+          do (when (> (incf count) (core-sized *algebra-most-components*))
+               (throw 'algebra-too-large 'too-large))
+             (let* ((branch (pop waiting))
+                    (grown (catch 'algebra-too-large (algebra-basis-of-branch branch))))
+               (cond ((eq grown 'too-large)
+                      (push (list (algebra-given-equations branch)) components)
+                      (setq *algebra-work-left* (floor work 4)))
+                     (t (let* ((basis (algebra-branch-elements grown))
+                               (factors (algebra-factors-in basis kernels)))
+                          (if factors
+                              (setq waiting (append (algebra-branches-by factors grown) waiting))
+                              (let ((component (algebra-component basis (length kernels))))
+                                (when component (push component components)))))))))
     (nreverse components)))
+
+(defun algebra-given-equations (branch)
+  (remove-if-not #'algebra-free-of-z-p
+                 (append (algebra-branch-elements branch) (algebra-branch-new branch))))
+
+(defun algebra-component (basis n)
+  "(generators . dimension) of the closure; nil where it is empty."
+  (let ((closure (remove-if-not #'algebra-free-of-z-p basis)))
+    (unless (algebra-everywhere-nonzero-p closure)
+      (cons (algebra-ideal-generators closure) (algebra-dimension closure n)))))
 
 (defun algebra-first-branch (polynomials apart count)
   (let ((one (list (cons (make-list (1+ count) :initial-element 0) 1))))
-    (make-algebra-branch :new (mapcar #'algebra-with-z polynomials)
-                         :product (reduce #'algebra-terms-product (mapcar #'algebra-with-z apart)
-                                          :initial-value one))))
+    (algebra-with-product (make-algebra-branch
+                           :new (algebra-sorted-polynomials (mapcar #'algebra-with-z polynomials)))
+                          (reduce #'algebra-terms-product (mapcar #'algebra-with-z apart)
+                                  :initial-value one))))
 
 (defun algebra-with-z (terms)
   (loop for (exponents . a) in terms collect (cons (cons 0 exponents) a)))
@@ -78,17 +95,13 @@ false where there are roots or functions of NAMES, a sentence where there is too
 
 (defun algebra-free-of-z-p (p) (zerop (first (algebra-lead p))))
 
-(defun algebra-with-basis (branch)
-  "The BRANCH with the basis of what is new in it."
-  (let* ((inverse (or (algebra-branch-inverse branch)
-                      (list (algebra-inverse-equation (algebra-branch-product branch)))))
-         (new (algebra-sorted-polynomials (algebra-branch-new branch)))
-         (known (append (algebra-branch-basis branch) (algebra-branch-inverse branch)))
-         (basis (algebra-basis-of (if (algebra-branch-inverse branch) new (append new inverse))
-                                  known)))
-    (make-algebra-branch :basis (remove-if-not #'algebra-free-of-z-p basis)
-                         :inverse (remove-if #'algebra-free-of-z-p basis)
-                         :product (algebra-branch-product branch))))
+(defun algebra-basis-of-branch (branch)
+  (let ((basis (algebra-basis-of (algebra-branch-new branch) (algebra-branch-elements branch))))
+    (make-algebra-branch :elements basis :product (algebra-branch-product branch))))
+
+(defun algebra-factors-in (basis kernels)
+  "Of the least element that has several."
+  (loop for p in (reverse basis) thereis (algebra-element-factors p kernels)))
 
 (defun algebra-inverse-equation (product)
   "z*PRODUCT - 1"
@@ -98,20 +111,27 @@ false where there are roots or functions of NAMES, a sentence where there is too
 (defun algebra-everywhere-nonzero-p (basis)
   (some (lambda (p) (every #'zerop (algebra-lead p))) basis))
 
-(defun algebra-branch-parts (branch kernels)
-  "Branches by the factors of the least element that has several; nil where none has."
-  (let* ((basis (algebra-branch-basis branch))
-         (product (algebra-branch-product branch))
-         (factors (loop for p in (reverse basis) thereis (algebra-element-factors p kernels))))
+(defun algebra-branches-by (factors branch)
+  "Where the first of the FACTORS vanishes, the second and not the first, and so on."
+  (let ((product (algebra-branch-product branch)))
     (loop for factor in factors
-          for first = t then nil
+          for part = (copy-algebra-branch branch)
           while product
-          collect (make-algebra-branch :basis basis
-                                       :inverse (and first (algebra-branch-inverse branch))
-                                       :product product
-                                       :new (list factor))
-          do (setq product (values (algebra-divided-rest (algebra-terms-product product factor)
-                                                         basis))))))
+          do (push factor (algebra-branch-new part))
+          collect (if (eq product (algebra-branch-product branch))
+                      part
+                      (algebra-with-product part product))
+          do (setq product (values (algebra-divided-rest
+                                    (algebra-terms-product product factor)
+                                    (algebra-branch-elements branch)))))))
+
+(defun algebra-with-product (branch product)
+  "The BRANCH where the PRODUCT does not vanish: elements with z go."
+  (flet ((without-z (polynomials) (remove-if-not #'algebra-free-of-z-p polynomials)))
+    (make-algebra-branch :elements (without-z (algebra-branch-elements branch))
+                         :product product
+                         :new (append (without-z (algebra-branch-new branch))
+                                      (list (algebra-inverse-equation product))))))
 
 ;;; Generators: elements of a basis that follow from lower ones are left out, as far as pairs up to
 ;;; their degrees show.
@@ -137,7 +157,8 @@ false where there are roots or functions of NAMES, a sentence where there is too
     (if known
         found
         (setf (gethash p *algebra-factors-found*)
-              (and (<= (length p) *algebra-most-factored*)
+              (and (algebra-free-of-z-p p)
+                   (<= (length p) *algebra-most-factored*)
                    (algebra-new-element-factors p kernels))))))
 
 (defun algebra-new-element-factors (p kernels)
@@ -175,12 +196,11 @@ false where there are roots or functions of NAMES, a sentence where there is too
 
 ;;; Dimension: the most unknowns of which no first term is made.
 
-(defun algebra-dimension (basis)
+(defun algebra-dimension (basis n)
   (let ((supports (loop for p in basis
                         collect (loop for exponent in (cdr (algebra-lead p))
                                       for k from 0
-                                      unless (zerop exponent) sum (ash 1 k))))
-        (n (length (cdr (algebra-lead (first basis))))))
+                                      unless (zerop exponent) sum (ash 1 k)))))
     (loop for unknowns below (ash 1 n)
           unless (some (lambda (support) (zerop (logandc2 support unknowns))) supports)
             maximize (logcount unknowns))))
