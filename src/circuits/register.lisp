@@ -23,11 +23,11 @@
 
 (core-public "PotentialParts" :kinds '("circuit"))
 (core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts"
-  "network" "own_parts")
+  "circuit" "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
 (core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
-  "network" "own_parts")
+  "circuit" "network" "own_parts")
 
 (core-option :truth "solved" "matrices")
 (core-public "StateEquations"
@@ -42,10 +42,16 @@
 (core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
   "MixedPotential" "inductances" "capacitances" '("solved" nil))
 
+;;; What each branch does
+
+(core-public "BranchQuantities" :kinds '("circuit"))
+(core-rule "BranchQuantities" '("circuit") "circuits/branch_quantities"
+  "circuits_branch_quantities" "circuit" "tableau")
+
 (core-public "PotentialRate"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances")) :kinds '("circuit"))
-(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "network"
-  "own_parts" "MixedPotential")
+(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "circuit"
+  "network" "own_parts" "MixedPotential")
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 

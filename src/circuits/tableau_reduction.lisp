@@ -9,8 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/coefficients" "circuits/elements" "circuits/tableau"
-                "circuits/tableau_elimination" "forms/exchange"))
+  (core-require "algebra/size" "circuits/coefficients" "circuits/elements" "circuits/tableau"
+                "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
   tableau
@@ -248,9 +248,20 @@ tree keeps independent."
        :test #'string= :from-end t))))
 
 (defun circuits-refuse-undetermined (solution open)
-  (core-error "the branches do not determine ~{~a~^, ~}; look for an amplifier or a controlled ~
-               source without feedback, and for resistors whose values cancel"
-              (circuits-labels-of solution open)))
+  (core-error "the currents and voltages are not determined: ~{~a~^, ~} may be any; look for an ~
+               amplifier or a controlled source without feedback, and for resistors whose values ~
+               cancel"
+              (circuits-labels-of solution (circuits-moved-by solution open))))
+
+(defun circuits-moved-by (solution open)
+  "The currents that depend on the undetermined columns OPEN, else these."
+  (let ((tableau (circuits-solution-tableau solution)) (moved '()))
+    (maphash (lambda (column row)
+               (when (and (eq :current (car (circuits-descriptor tableau column)))
+                          (some (lambda (free) (gethash free row)) open))
+                 (push column moved)))
+             (circuits-solution-solved solution))
+    (if moved (sort (union moved open) #'<) open)))
 
 (defun circuits-refuse-tie (solution tie)
   (let* ((tableau (circuits-solution-tableau solution))
