@@ -58,6 +58,22 @@
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
 
+;;; Transfer functions; `poles' gives a record with poles and zeros
+
+(core-option :truth "poles")
+(core-argument :formula "output")
+(core-argument :variable "input")
+(core-rule "response" '("circuit") "circuits/transfer" "circuits_transfer_function"
+  "circuit" "output" "input")
+(core-rule "driving_point" '("circuit") "circuits/transfer" "circuits_impedance"
+  "circuit" "from_node" "to_node")
+(loop for (name quantity . trailing) in '(("TransferFunction" "response" "output" "input")
+                                          ("Impedance" "driving_point" "from_node" "to_node"))
+      do (core-public name :trailing trailing :options '("poles") :kinds '("circuit"))
+         (core-rule-same-as name '("circuit") quantity)
+         (core-rule-given '("poles" t) name '("circuit") "circuits/transfer"
+           "circuits_poles_and_zeros" quantity))
+
 ;;; Rates of a run; where a potential is given, by its equations; Routh's and Hamilton's forms of a
 ;;; linear circuit are those in loop charges
 
