@@ -64,23 +64,24 @@
    (circuits-law-direction (circuits-solution-tableau solution) branch)))
 
 (defun circuits-branch-current-row (circuit solution branch)
-  (let* ((tableau (circuits-solution-tableau solution)) (k (circuits-branch-number branch))
-         (row (circuits-copied-row
-               (circuits-current-row solution (circuits-branch-at tableau k)))))
-    (flet ((add (x other)
-             (circuits-add-multiple row x (circuits-current-row
-                                           solution
-                                           (circuits-branch-at
-                                            tableau (circuits-branch-number other))))))
-      (dolist (other (cdr (circuits-circuit-branches circuit)))
-        (when (and (circuits-of-a-law-p other)
-                   (eq (cadr (circuits-branch-control other)) (circuits-branch-label branch)))
-          (add 1 other)))
-      (loop for winding in (cdr (circuits-circuit-windings circuit))
-            for weight = ($circuits_entry (circuits-winding-weights winding) k)
-            do (add (circuits-negative (circuits-inside weight))
-                    (circuits-branch-at tableau (circuits-winding-number winding)))))
-    row))
+  (let* ((tableau (circuits-solution-tableau solution)) (row (circuits-new-row))
+         (result (circuits-new-row)))
+    (circuits-add-current tableau row
+                          (circuits-branch-at tableau (circuits-branch-number branch)) 1)
+    (dolist (source (circuits-sources-of-law circuit branch))
+      (circuits-add-current tableau row source 1))
+    (maphash (lambda (column x)
+               (circuits-add-solved result column x (circuits-solution-solved solution)))
+             row)
+    (circuits-final-row solution result)))
+
+(defun circuits-sources-of-law (circuit branch)
+  "The source beside the resistor BRANCH of an affine law, in a list."
+  (remove-if-not (lambda (other)
+                   (and (circuits-of-a-law-p other)
+                        (eq (cadr (circuits-branch-control other))
+                            (circuits-branch-label branch))))
+                 (cdr (circuits-circuit-branches circuit))))
 
 (defun $circuits_tableau_windings (circuit solution)
   "[i_k = i_km - sum w*i_j, .., i_j = ..]: the currents of windings with k = 1 and of those that

@@ -27,7 +27,9 @@
   (let* ((tableau (circuits-tableau-of circuit))
          (unknowns (circuits-tableau-unknowns tableau))
          (work (circuits-eliminated-rows
-                (mapcar #'circuits-copied-row (circuits-tableau-rows tableau)) unknowns))
+                (loop for row in (circuits-tableau-rows tableau)
+                      collect (circuits-without-idle-sources tableau row))
+                unknowns))
          (solution (make-circuits-solution
                     :tableau tableau :states (circuits-state-numbers tableau)
                     :solved (circuits-solved-unknowns work unknowns)
@@ -39,6 +41,16 @@
                         collect (circuits-rate-row solution k))))
     (when (circuits-solution-free solution) (circuits-find-rates solution))
     solution))
+
+(defun circuits-without-idle-sources (tableau row)
+  "A copy of ROW without sources whose value is 0."
+  (let ((copy (circuits-copied-row row)))
+    (loop for column being the hash-keys of row
+          for (sort k) = (circuits-descriptor tableau column)
+          do (when (and (eq sort :source)
+                        (eql 0 (circuits-branch-value (circuits-branch-at tableau k))))
+               (remhash column copy)))
+    copy))
 
 (defun circuits-state-numbers (tableau)
   (flet ((of-type (type)
