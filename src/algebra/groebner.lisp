@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size"))
+  (core-require "algebra/modular" "algebra/size"))
 
 (defvar *algebra-degree-order* nil
   "true: monomials in the order of their degrees (graded, reversed); first: by the first exponent,

@@ -6,8 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/netlist_lines" "archive/netlist_values" "archive/plain_simplifier"
-                "archive/parser"))
+  (core-require "archive/netlist_lines" "archive/netlist_values" "archive/tokens"))
 
 (defparameter *archive-net-waves*
   '(("sin" . archive-net-sine) ("exp" . archive-net-exponential) ("pwl" . archive-net-lines-of-time)
