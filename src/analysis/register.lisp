@@ -240,8 +240,8 @@
   "polynomial" "horizontal" "vertical")
 (core-rule "stability_map" *analysis-states* "analysis/stability_map" "analysis_state_map"
   "CharacteristicPolynomial" *analysis-lambda* "motion" *analysis-values* "horizontal" "vertical")
-(core-rule "map_axes" :any "analysis/stability_map" "analysis_listed" "horizontal" "vertical")
-(core-rule "map_theorems" :any "analysis/stability_map" "analysis_listed_three" "Lagrangian"
+(core-rule "map_axes" :any "analysis/stability_map" "analysis_map_axes" "horizontal" "vertical")
+(core-rule "map_theorems" :any "analysis/stability_map" "analysis_map_theorems" "Lagrangian"
   "actions" *analysis-laws*)
 (core-rule "stability_map" *analysis-motions* "analysis/stability_map" "analysis_second_order_map"
   "CharacteristicPolynomial" *analysis-lambda* "motion" *analysis-values* "map_axes"
