@@ -73,9 +73,10 @@
   (let* ((name (net-element-name element)) (small (string-downcase name)))
     (when (gethash small (net-sheet-labels sheet))
       (archive-net-fault "the element ~a is there already" (archive-shown name)))
-    (setf (gethash small (net-sheet-labels sheet))
-          (archive-net-free-name sheet (if (archive-net-usable-p name) name
-                                           (format nil "~a_" (archive-net-plain name)))))))
+    (let ((plain (archive-net-plain name)))
+      (setf (gethash small (net-sheet-labels sheet))
+            (archive-net-free-name sheet (if (archive-net-usable-p plain) plain
+                                             (format nil "~a_" plain)))))))
 
 (defun archive-net-label (sheet element)
   (gethash (string-downcase (net-element-name element)) (net-sheet-labels sheet)))

@@ -53,7 +53,8 @@
                   (or (position ")" fields :test #'string=)
                       (archive-net-fault "a parenthesis without its end"))
                   (or (position-if-not #'archive-net-like-value-p fields) (length fields)))))
-    (values (mapcar (lambda (field) (archive-net-value field scope)) (subseq fields 0 end))
+    (values (mapcar (lambda (field) (format nil "(~a)" (archive-net-value field scope)))
+                    (subseq fields 0 end))
             (nthcdr (if open (1+ end) end) fields))))
 
 ;;; Numbers that must be known

@@ -80,3 +80,14 @@
 (loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
                                 ("forces" "Q"))
       do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
+
+;;; SPICE netlists: written in each call
+
+(core-option :truth "replace")
+(core-rule "netlist_text" '("circuit") "circuits/write_netlist" "circuits_netlist_text" "circuit"
+  '("values" ((mlist simp))) '("where" ((mlist simp))) '("nodes" ((mlist simp)))
+  '("start" ((mlist simp))) '("time" ((mlist simp))))
+(core-public "WriteNetlist" :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
+                            :kinds '("circuit"))
+(core-act "WriteNetlist" nil '("circuit") "circuits/write_netlist" "circuits_write_netlist"
+  "netlist_text" "netlist" '("replace" nil))
