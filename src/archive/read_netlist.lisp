@@ -6,8 +6,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/bytes" "archive/disk" "archive/netlist_elements" "archive/netlist_lines"
-                "archive/netlist_parts" "archive/open" "archive/store" "archive/tokens"))
+  (core-require "archive/bytes" "archive/disk" "archive/groups" "archive/netlist_elements"
+                "archive/netlist_lines" "archive/netlist_parts" "archive/netlist_values"
+                "archive/open" "archive/store"))
 
 (defun $archive_read_netlist (netlist archive replace)
   "Reads the file NETLIST and writes ARCHIVE, whose name is returned."

@@ -41,8 +41,7 @@
     (:nodes archive-as-nodes "a list of nodes and what they were called, such as [n_in = \"in\"]")
     (:states archive-as-states "a list of states by label, such as [i1 = L1, u3 = C3]")
     (:graph archive-as-graph "a list of branches, such as {{{1, 2}, L1}, {{2, 3}, C1, u1}}")
-    (:skew archive-as-skew
-           "a square matrix with {x_j, x_i} = -{x_i, x_j}, such as [[0, 1], [-1, 0]]")
+    (:skew archive-as-skew "a skew matrix of {x_i, x_j}, such as [[0, 1], [-1, 0]]")
     (:algebra archive-as-algebra "so(4), e(3) or so(3,1)"))
   "Type, the function below that checks a value of it, and what such a value is.")
 
@@ -280,10 +279,6 @@ those who compute with it."
 
 (defun archive-as-numbers (value)
   (archive-checked-equations value #'archive-a-name #'archive-a-number))
-
-(defun archive-as-nodes (value)
-  (archive-checked-equations value #'archive-a-name
-                             (lambda (e) (if (stringp e) e (archive-unfit)))))
 
 (defun archive-as-states (value)
   (archive-checked-equations value #'archive-a-name #'archive-a-name))

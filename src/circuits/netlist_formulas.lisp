@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_languages" "forms/exchange"))
+  (core-require "algebra/program_languages"))
 
 (defparameter *circuits-spice-functions*
   '((%sin . "sin") (%cos . "cos") (%tan . "tan") (%asin . "asin") (%acos . "acos") (%atan . "atan")

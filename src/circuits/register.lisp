@@ -87,7 +87,8 @@
 (core-rule "netlist_text" '("circuit") "circuits/write_netlist" "circuits_netlist_text" "circuit"
   '("values" ((mlist simp))) '("where" ((mlist simp))) '("nodes" ((mlist simp)))
   '("start" ((mlist simp))) '("time" ((mlist simp))))
-(core-public "WriteNetlist" :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
-                            :kinds '("circuit"))
+(core-public "WriteNetlist"
+  :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
+  :kinds '("circuit"))
 (core-act "WriteNetlist" nil '("circuit") "circuits/write_netlist" "circuits_write_netlist"
   "netlist_text" "netlist" '("replace" nil))

@@ -1,14 +1,15 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; WriteNetlist: a circuit with numbers as a SPICE netlist. R L C V I E G F H K are written as such,
-;;; laws and sources that vary as sources B; an ideal transformer as E and F, an ideal operational
-;;; amplifier as E of gain 1e9. Where a current controls, a source of 0 volts stands in its branch.
+;;; WriteNetlist: a circuit with numbers as a SPICE netlist. R L C V I E G F H K are written as
+;;; such, laws and sources that vary as sources B; an ideal transformer as E and F, an ideal
+;;; operational amplifier as E of gain 1e9. Where a current controls, a source of 0 volts stands in
+;;; its branch.
 ;;; In the sign convention generator the branch voltage is reversed: then R, and the laws, change
 ;;; their sign. See circuits-write-netlist first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/new_files" "circuits/element_laws" "circuits/elements"
+  (core-require "algebra/new_files" "circuits/element_laws" "circuits/elements" "circuits/graph"
                 "circuits/netlist_formulas" "forms/exchange" "forms/laws"))
 
 (defstruct circuits-card-file
