@@ -52,8 +52,10 @@
   "The description that the netlist of LINES becomes."
   (archive-description (archive-of-text "test" ($netlist_archive lines))))
 
+(defvar *netlist-number* (core-process-id) "What tells this run's files from those of others.")
+
 (defun $netlist_file (type)
-  (format nil "~a/netlist-test-~d.~a" $maxima_tempdir (core-process-id) type))
+  (format nil "~a/netlist-test-~d.~a" $maxima_tempdir *netlist-number* type))
 
 (defun $netlist_values (file)
   "The key values of the archive FILE, of a description list too."

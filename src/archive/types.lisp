@@ -41,7 +41,7 @@
     (:nodes archive-as-nodes "a list of nodes and what they were called, such as [n_in = \"in\"]")
     (:states archive-as-states "a list of states by label, such as [i1 = L1, u3 = C3]")
     (:graph archive-as-graph "a list of branches, such as {{{1, 2}, L1}, {{2, 3}, C1, u1}}")
-    (:skew archive-as-skew "a skew matrix of {x_i, x_j}, such as [[0, 1], [-1, 0]]")
+    (:skew archive-as-skew "a square matrix that is skew, such as [[0, 1], [-1, 0]]")
     (:algebra archive-as-algebra "so(4), e(3) or so(3,1)"))
   "Type, the function below that checks a value of it, and what such a value is.")
 
