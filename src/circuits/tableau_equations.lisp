@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/factoring" "algebra/matrices" "algebra/normal" "algebra/size"
+  (core-require "algebra/factoring" "algebra/normal"
                 "circuits/coefficients" "circuits/element_laws" "circuits/elements"
                 "circuits/tableau" "circuits/tableau_reduction"))
 

@@ -190,6 +190,8 @@
 
 (core-rule "poisson_equations" '("poisson") "forms/poisson" "forms_poisson_equations"
   "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))) "hamiltonian")
+(core-rule "structure_matrix" '("poisson") "forms/poisson" "forms_structure_matrix"
+  "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))))
 (core-rule "poisson_integrals" '("poisson") "forms/poisson" "forms_poisson_integrals"
   "hamiltonian" '("integrals" ((mlist simp)))
   "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))))
