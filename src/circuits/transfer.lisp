@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/factoring" "algebra/normal" "algebra/sign" "circuits/branch_quantities"
+  (core-require "algebra/factoring" "algebra/normal" "circuits/branch_quantities"
                 "circuits/coefficients" "circuits/elements" "circuits/order" "circuits/tableau"
                 "circuits/tableau_elimination" "circuits/tableau_reduction"))
 
