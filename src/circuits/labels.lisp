@@ -46,8 +46,8 @@
 ;;; Rows without a fault, as most are
 
 (defun $circuits_plain_branch (row)
-  "The branch of [number, label or false, tail, head, type, value(, state)] of an R, L, C, E or I, or
-false where something in it is to be looked at."
+  "The branch of [number, label or false, tail, head, type, value(, state)] of an R, L, C, E or I,
+or false where something in it is to be looked at."
   (destructuring-bind (number label &optional tail head type (value nil given) (state nil named)
                        &rest more)
       (cdr row)
@@ -72,7 +72,8 @@ false where something in it is to be looked at."
   "[branch, name] where the name of a state stands in the value of that branch, or []."
   (let ((states (make-hash-table :test #'eq)))
     (dolist (branch (cdr branches))
-      (when (circuits-branch-state branch) (setf (gethash (circuits-branch-state branch) states) t)))
+      (when (circuits-branch-state branch)
+        (setf (gethash (circuits-branch-state branch) states) t)))
     (loop for branch in (cdr branches)
           for name = (find-if (lambda (name) (gethash name states))
                               (circuits-names-in (circuits-branch-value branch)))

@@ -164,8 +164,8 @@
 ;;; Poles and zeros
 
 (defun $circuits_poles_and_zeros (e)
-  "[function = .., zeros = [[zero, multiplicity], ..], poles = ..]; roots without a closed form stand
-as the equation that they satisfy."
+  "[function = .., zeros = [[zero, multiplicity], ..], poles = ..]; roots without a closed form
+stand as the equation that they satisfy."
   (destructuring-bind (above below) (cdr ($algebra_ratio e))
     (list '(mlist simp)
           (list '(mequal simp) '$function e)
