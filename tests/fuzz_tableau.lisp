@@ -475,7 +475,7 @@ capacitor, a loop of source and capacitor, a cut of source and inductor."
 (defun fuzz-at-s (e s)
   (algebra-rational-number (maxima-substitute (fuzz-number s) '|$S| e)))
 
-(defun fuzz-potential-fault (model tableau solution)
+(defun fuzz-potential-fault (tableau solution)
   "Where there is a potential and all states are independent: its derivatives are the voltages of
 inductors and minus the currents of capacitors."
   (multiple-value-bind (potential text)
