@@ -9,6 +9,8 @@
 ;;; its matrices. A circuit whose network is refused is still checked.
 
 (core-middle "circuit" '("circuit") "circuits/circuit" "circuits_read_circuit" "description")
+(core-middle "open_circuit" '("circuit") "circuits/circuit" "circuits_read_open_circuit"
+  "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
 ;;; The sparse tableau, solved for independent states
@@ -69,9 +71,9 @@
 (core-argument :formula "output")
 (core-argument :variable "input")
 (core-rule "response" '("circuit") "circuits/transfer" "circuits_transfer_function"
-  "circuit" "output" "input")
+  "open_circuit" "output" "input")
 (core-rule "driving_point" '("circuit") "circuits/transfer" "circuits_impedance"
-  "circuit" "from_node" "to_node")
+  "open_circuit" "from_node" "to_node")
 (loop for (name quantity . trailing) in '(("TransferFunction" "response" "output" "input")
                                           ("Impedance" "driving_point" "from_node" "to_node"))
       do (core-public name :trailing trailing :options '("poles") :kinds '("circuit"))
