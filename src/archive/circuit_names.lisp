@@ -43,11 +43,6 @@ stand in [branches] or in graph."
 
 ;;; Names
 
-(defun archive-as-nodes (value)
-  "Nodes with what they were called: [name = \"text\", ..]."
-  (archive-checked-equations value #'archive-a-name
-                             (lambda (e) (if (stringp e) e (archive-unfit)))))
-
 (defparameter *archive-row-value-field* 3
   "Place of the value in a branch's fields: n1, n2, type, value.")
 

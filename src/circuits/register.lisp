@@ -23,9 +23,12 @@
 (core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 
-(core-public "PotentialParts" :kinds '("circuit"))
+(core-option :truth "pairs")
+(core-public "PotentialParts" :options '("pairs") :kinds '("circuit"))
 (core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts"
   "circuit" "network" "own_parts")
+(core-rule-given '("pairs" t) "PotentialParts" '("circuit") "circuits/potential"
+  "circuits_parts_by_pairs" "circuit" "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
 (core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
@@ -57,10 +60,11 @@
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
-(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed"
+  "circuit" "network")
 
-(core-rule "PortHamiltonian" '("circuit") "circuits/ports"
-  "circuits_port_hamiltonian" "circuit")
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian"
+  "circuit" "network" "tableau")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
