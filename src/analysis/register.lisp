@@ -130,8 +130,9 @@
   "analysis_function_alone" "hamiltonian")
 (core-rule "functions_derived" '("poisson") "analysis/jumps" "analysis_function_alone"
   "hamiltonian")
-(core-rule "functions_derived" '("circuit") "analysis/jumps" "analysis_function_alone"
-  "MixedPotential")
+(loop for given in '("potential" (:edited "MixedPotential"))
+      do (core-rule-given given "functions_derived" '("circuit") "analysis/jumps"
+           "analysis_function_alone" "MixedPotential"))
 
 ;;; First approximation and criteria
 

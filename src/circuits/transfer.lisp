@@ -82,8 +82,8 @@
       (core-error "~a: there is no branch ~a" what (core-words (list label)))))
 
 (defun circuits-output-row (circuit output)
-  "A function of the tableau: the row of OUTPUT, a state, u(label), i(label) or v(node), as it stands
-or quoted."
+  "A function of the tableau: the row of OUTPUT, a state, u(label), i(label) or v(node), plain or
+quoted."
   (let ((output (if (atom output) output (cons (list ($verbify (caar output))) (cdr output))))
         (branch (and (symbolp output)
                      (find output (cdr (circuits-circuit-branches circuit))
