@@ -218,10 +218,18 @@
   "polynomial" "u")
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
-                               ("Signature" "analysis_signature")
-                               ("Definite" "analysis_definite_or_undecided"))
+                               ("Signature" "analysis_signature"))
       do (core-public name :forms '(("matrices" "A")))
          (core-rule name :any "analysis/definite" function "A"))
+
+(defparameter *analysis-part* (list "part" *analysis-none*))
+(core-option :truth "squares")
+(core-public "Definite" :forms '(("matrices" "A") ("function" "K" "variables"))
+                        :options '("part" "squares"))
+(core-rule "Definite" '("matrices") "analysis/semidefinite" "analysis_definite_or_undecided"
+  "A" *analysis-part*)
+(core-rule "Definite" '("function") "analysis/definite_function" "analysis_definite_function"
+  "K" "variables" *analysis-part* '("squares" nil))
 
 (core-public "ForceStructure"
   :forms '(("pencil" "M" "S" "W"))
