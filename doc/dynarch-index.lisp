@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 1846479580 95120
+;;; Made by tools/doc; checksum of doc/*.texi: 3332828309 96208
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -43,18 +43,19 @@
 ("LeadingMinors" . ("dynarch.info" 61285 424 "Definitions for Analysis"))
 ("Signature" . ("dynarch.info" 61710 490 "Definitions for Analysis"))
 ("Definite" . ("dynarch.info" 62201 2463 "Definitions for Analysis"))
-("ForceStructure" . ("dynarch.info" 64665 995 "Definitions for Analysis"))
-("KelvinChetaev" . ("dynarch.info" 65661 2354 "Definitions for Analysis"))
-("Stability" . ("dynarch.info" 68016 3481 "Definitions for Analysis"))
-("SecondVariation" . ("dynarch.info" 71498 976 "Definitions for Analysis"))
-("RouthLyapunov" . ("dynarch.info" 72475 2117 "Definitions for Analysis"))
-("LinearIntegrals" . ("dynarch.info" 74593 654 "Definitions for Analysis"))
-("QuadraticIntegrals" . ("dynarch.info" 75248 702 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 76229 6393 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 82623 3906 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 86530 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 88493 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 93211 3304 "Definitions for Numerics"))
+("ReduceForms" . ("dynarch.info" 64665 1150 "Definitions for Analysis"))
+("ForceStructure" . ("dynarch.info" 65816 995 "Definitions for Analysis"))
+("KelvinChetaev" . ("dynarch.info" 66812 2354 "Definitions for Analysis"))
+("Stability" . ("dynarch.info" 69167 3481 "Definitions for Analysis"))
+("SecondVariation" . ("dynarch.info" 72649 976 "Definitions for Analysis"))
+("RouthLyapunov" . ("dynarch.info" 73626 2117 "Definitions for Analysis"))
+("LinearIntegrals" . ("dynarch.info" 75744 654 "Definitions for Analysis"))
+("QuadraticIntegrals" . ("dynarch.info" 76399 702 "Definitions for Analysis"))
+("Simulate" . ("dynarch.info" 77380 6393 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 83774 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 87681 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 89644 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 94362 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -63,7 +64,7 @@
 ("Definitions for velocities" . ("dynarch.info" 6728 2005))
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 7926))
-("Definitions for Analysis" . ("dynarch.info" 47581 28369))
-("Definitions for Numerics" . ("dynarch.info" 76085 20430))
+("Definitions for Analysis" . ("dynarch.info" 47581 29520))
+("Definitions for Numerics" . ("dynarch.info" 77236 20430))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

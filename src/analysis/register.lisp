@@ -28,7 +28,7 @@
 ;;; Arguments. K is a function, and a matrix where forces are given by theirs.
 
 (core-argument :formula "K" "polynomial")
-(core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
+(core-argument :square "A" "B" "M" "S" "W" "D" "G" "P" '("K" "forces"))
 (core-argument :variables "variables")
 (core-argument :variable "lambda" "u")
 (core-argument :solution "solution")
@@ -230,6 +230,9 @@
   "A" *analysis-part*)
 (core-rule "Definite" '("function") "analysis/definite_function" "analysis_definite_function"
   "K" "variables" *analysis-part* '("squares" nil))
+
+(core-public "ReduceForms" :forms '(("matrices" "A" "B")))
+(core-rule "ReduceForms" '("matrices") "analysis/reduce_forms" "analysis_reduce_forms" "A" "B")
 
 (core-public "ForceStructure"
   :forms '(("pencil" "M" "S" "W"))
