@@ -32,7 +32,7 @@
 ;;; Arguments. K is a function, and a matrix where forces are given by theirs.
 
 (core-argument :formula "K" "polynomial" "V")
-(core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
+(core-argument :square "A" "B" "M" "S" "W" "D" "G" "P" '("K" "forces"))
 (core-argument :variables "variables")
 (core-argument :variable "lambda" "u")
 (core-argument :solution "solution")
@@ -285,10 +285,21 @@
   "polynomial" "u")
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
-                               ("Signature" "analysis_signature")
-                               ("Definite" "analysis_definite_or_undecided"))
+                               ("Signature" "analysis_signature"))
       do (core-public name :forms '(("matrices" "A")))
          (core-rule name :any "analysis/definite" function "A"))
+
+(defparameter *analysis-part* (list "part" *analysis-none*))
+(core-option :truth "squares")
+(core-public "Definite" :forms '(("matrices" "A") ("function" "K" "variables"))
+                        :options '("part" "squares"))
+(core-rule "Definite" '("matrices") "analysis/semidefinite" "analysis_definite_or_undecided"
+  "A" *analysis-part*)
+(core-rule "Definite" '("function") "analysis/definite_function" "analysis_definite_function"
+  "K" "variables" *analysis-part* '("squares" nil))
+
+(core-public "ReduceForms" :forms '(("matrices" "A" "B")))
+(core-rule "ReduceForms" '("matrices") "analysis/reduce_forms" "analysis_reduce_forms" "A" "B")
 
 (core-public "ForceStructure"
   :forms '(("pencil" "M" "S" "W"))
