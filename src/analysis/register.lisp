@@ -39,6 +39,7 @@
 (core-argument :rates "equations")
 (core-argument :integrals "integrals")
 (core-argument :vanishing "within" "manifold")
+(core-argument :conditions "conditions")
 
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
 
@@ -274,6 +275,12 @@
   "analysis_routh_lyapunov_motion"
   "reduced_system" "coordinates" "special_cases_sought" (list "multipliers" *analysis-none*)
   (list "solution" *analysis-none*))
+
+;;; Multipliers
+
+(core-public "EliminateMultipliers" :forms '(("conditions" "conditions" "multipliers")))
+(core-rule "EliminateMultipliers" :any "analysis/multipliers" "analysis_eliminate_multipliers"
+  "conditions" "multipliers")
 
 ;;; Matrices and forms
 
