@@ -39,6 +39,7 @@
 (core-argument :rates "equations")
 (core-argument :integrals "integrals")
 (core-argument :vanishing "within" "manifold")
+(core-argument :conditions "conditions")
 
 (core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
 
@@ -259,12 +260,15 @@
 (core-rule-later "motion_asked" *analysis-motions* "motion")
 (core-rule-later "Lagrangian_asked" *analysis-motions* "Lagrangian")
 (core-rule-later "reduced_system_asked" *analysis-motions* "reduced_system")
-(core-rule-later "euler_poisson_asked" '("mechanical") "EulerPoisson")
+(core-rule-tried "euler_poisson_or_why" '("mechanical") "EulerPoisson")
+(core-rule-later "euler_poisson_asked" '("mechanical") "euler_poisson_or_why")
+(core-rule-later "candidates_asked" '("mechanical") "integral_candidates")
 (core-rule-later "variables_asked" '("mechanical") "variables_in_coordinates")
 (core-rule-same-as "reduced_system" *analysis-bodiless* "routh_system")
 (core-rule-same-as "reduced_system" '("mechanical") "routh_system" :given '("function" $routh))
 (core-rule "carried_system" '("mechanical") "analysis/reduced_system" "analysis_carried_system"
-  "euler_poisson_asked" "variables_asked" *analysis-functions* *analysis-laws* "coordinates")
+  "euler_poisson_asked" "variables_asked" "candidates_asked" *analysis-functions*
+  *analysis-laws* "coordinates")
 (core-rule "reduced_system" '("mechanical") "analysis/reduced_system" "analysis_reduced_system"
   "carried_system" "routh_system_asked")
 
@@ -272,6 +276,12 @@
   "analysis_routh_lyapunov_motion"
   "reduced_system" "coordinates" "special_cases_sought" (list "multipliers" *analysis-none*)
   (list "solution" *analysis-none*))
+
+;;; Multipliers
+
+(core-public "EliminateMultipliers" :forms '(("conditions" "conditions" "multipliers")))
+(core-rule "EliminateMultipliers" :any "analysis/multipliers" "analysis_eliminate_multipliers"
+  "conditions" "multipliers")
 
 ;;; Matrices and forms
 
