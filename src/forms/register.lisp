@@ -99,6 +99,14 @@
   "forms_hamilton_equations_of"
   "hamiltonian" "coordinates" '("momenta" ((mlist simp))) "canonical_actions" '("form" $auto))
 
+;;; Port-Hamiltonian form
+
+(core-public "PortHamiltonian"
+  :forms '(("lagrangian" "Lagrangian" "coordinates"))
+  :options '("momenta" "rayleigh" "forces") :kinds *forms-kinds*)
+(core-rule "PortHamiltonian" :any "forms/port_hamiltonian" "forms_port_hamiltonian"
+  "Hamiltonian" "HamiltonEquations" "coordinates" "actions")
+
 ;;; Dirac
 
 (defparameter *forms-dirac-inputs* '(("momenta" ((mlist simp))) "actions"))
