@@ -41,6 +41,11 @@ of the last minor, what is left of the conditions."
 conditions, which vanish; what is apart from zero."
   found conditions (apart '((mlist simp))))
 
+(core-record analysis-naming
+  "Conditions in which sines, cosines and roots have names; what these are bound by, and mean:
+[name = .., ..], a meaning with other names before theirs."
+  conditions unknowns relations meanings)
+
 (core-record analysis-root
   "A root of a polynomial, and what must vanish for it."
   value (conditions '((mlist simp))))

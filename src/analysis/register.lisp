@@ -315,6 +315,14 @@
       do (core-public name :forms '(("matrices" "A" "variables")))
          (core-rule name :any "analysis/linear_system" function "A" "variables"))
 
+;;; A mixed potential as Lyapunov's function
+
+(core-public "BraytonMoser" :options '("where" "solution") :kinds '("circuit"))
+(core-rule "BraytonMoser" '("circuit") "analysis/brayton_moser" "analysis_brayton_moser"
+  "MixedPotential" "potential_stores" *analysis-where*)
+(core-rule-given "solution" "BraytonMoser" '("circuit") "analysis/brayton_moser_verdict"
+  "analysis_brayton_moser_judged" "MixedPotential" "potential_stores" *analysis-where* "motion")
+
 (core-public "PolynomialIntegrals"
   :forms '(("equations" "equations" "degree"))
   :trailing '("degree") :options '("where" "integrals") :kinds *analysis-states*)
@@ -325,11 +333,3 @@
            "analysis_polynomial_integrals"
            "state_equations" *analysis-variables* "degree" integrals
            (list "level" *analysis-none*) "special_cases"))
-
-;;; A mixed potential as Lyapunov's function
-
-(core-public "BraytonMoser" :options '("where" "solution") :kinds '("circuit"))
-(core-rule "BraytonMoser" '("circuit") "analysis/brayton_moser" "analysis_brayton_moser"
-  "MixedPotential" "potential_stores" *analysis-where*)
-(core-rule-given "solution" "BraytonMoser" '("circuit") "analysis/brayton_moser_verdict"
-  "analysis_brayton_moser_judged" "MixedPotential" "potential_stores" *analysis-where* "motion")
