@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/modular" "algebra/size"))
+  (core-require "algebra/size"))
 
 (defvar *algebra-degree-order* nil
   "true: monomials in the order of their degrees (graded, reversed); first: by the first exponent,
@@ -28,8 +28,8 @@ then so; false: lexicographic.")
         (t (algebra-greater-degree-p a b))))
 
 (defun algebra-greater-degree-p (a b)
-  (let ((of-a (algebra-total-degree a))
-        (of-b (algebra-total-degree b))
+  (let ((of-a (algebra-exponents-degree a))
+        (of-b (algebra-exponents-degree b))
         (answer nil))
     (declare (fixnum of-a of-b))
     (if (/= of-a of-b)
@@ -39,7 +39,7 @@ then so; false: lexicographic.")
               unless (= x y) do (setq answer (< x y))
               finally (return answer)))))
 
-(defun algebra-total-degree (a)
+(defun algebra-exponents-degree (a)
   (let ((degree 0))
     (declare (fixnum degree))
     (dolist (x a degree) (incf degree (the fixnum x)))))
@@ -166,7 +166,7 @@ come from pairs of more than a DEGREE."
       (setq pairs (algebra-joined-to-basis (algebra-rest-of p basis) basis pairs)))
     (loop while (and pairs
                      (or (null degree)
-                         (<= (algebra-total-degree (third (first pairs))) degree)))
+                         (<= (algebra-exponents-degree (third (first pairs))) degree)))
           do (let ((p (algebra-pair-polynomial (pop pairs) basis)))
                (setq pairs (algebra-joined-to-basis (algebra-rest-of p basis) basis pairs))))
     (algebra-reduced-basis (coerce basis 'list))))
