@@ -10,8 +10,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common_roots" "algebra/evaluate" "algebra/general_form" "algebra/kernels"
-                "algebra/normal" "algebra/quotient" "algebra/relations" "algebra/scan"))
+  (core-require "algebra/common_roots" "algebra/evaluate" "algebra/general_form"
+                "algebra/groebner" "algebra/kernels" "algebra/normal" "algebra/quotient"
+                "algebra/relations" "algebra/scan" "algebra/size"))
 
 (defstruct (analysis-frequencies (:conc-name analysis-frequencies-))
   variables                                   ; the polynomials' symbols of lambda1, lambda2
