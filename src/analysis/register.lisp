@@ -286,7 +286,14 @@
 
 ;;; Integrals of linear systems
 
-(loop for (name function) in '(("LinearIntegrals" "analysis_linear_integrals")
-                               ("QuadraticIntegrals" "analysis_quadratic_integrals"))
-      do (core-public name :forms '(("matrices" "A" "variables")))
-         (core-rule name :any "analysis/linear_system" function "A" "variables"))
+(loop for (name function) in '(("LinearIntegrals" "linear_integrals")
+                               ("QuadraticIntegrals" "quadratic_integrals"))
+      do (core-public name :forms '(("matrices" "A" "variables") ("pencil" "M" "S" "W" "variables"))
+                           :trailing '("solution") :options *analysis-linear-options*
+                           :kinds *analysis-kinds*)
+         (flet ((rule (kinds before after &rest inputs)
+                  (apply #'core-rule name kinds "analysis/linear_system"
+                         (concatenate 'string "analysis_" before function after) inputs)))
+           (rule '("matrices") "" "" "A" "variables")
+           (rule '("pencil") "pencil_" "" "M" "S" "W" "variables")
+           (rule *analysis-kinds* "" "_near" "FirstApproximation")))
