@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/interval" "algebra/noun_values"))
+  (core-require "algebra/size" "algebra/interval" "algebra/noun_values" "algebra/real_roots"))
 
 ;;; How small a real algebraic number can be that is not 0.  A constant is U/(m*L) with algebraic
 ;;; integers U, L and a whole m; u and l bound U and L in every embedding of their field, of degree
@@ -75,8 +75,8 @@
                      (algebra-bound-product half half)))
         (t (algebra-bound-product a (algebra-bound-power a (1- n))))))
 
-;;; The bound of an expression in numbers, powers, and sines and cosines of parts of %pi; all else
-;;; throws not-algebraic.
+;;; The bound of an expression in numbers, powers, real roots of polynomials, and sines and cosines
+;;; of parts of %pi; all else throws not-algebraic.
 
 (defun algebra-bound-of (e)
   (let ((number (algebra-rational-number e)))
@@ -90,7 +90,18 @@
                                 (algebra-bound (ash 2 algebra-bound-digits) 2
                                                (ash 1 algebra-bound-digits))
                                 (throw 'not-algebraic nil)))
+               (|$RealRoot| (if (algebra-real-root-p e)
+                                (algebra-bound-of-real-root (cdadr e))
+                                (throw 'not-algebraic nil)))
                (t (throw 'not-algebraic nil)))))))
+
+(defun algebra-bound-of-real-root (p)
+  "a0 times the root is an algebraic integer, each root below 1 + max|a_i/a0| (Cauchy)."
+  (let ((first (abs (car p))))
+    (algebra-bound (algebra-up (ash (+ first (reduce #'max (mapcar #'abs p)))
+                                    algebra-bound-digits))
+                   first
+                   (ash 1 algebra-bound-digits))))
 
 (defun algebra-algebraic-p (e)
   (and (catch 'not-algebraic (algebra-bound-of e)) t))
@@ -110,17 +121,19 @@
 ;;; The degree of a field that holds the values of some expressions.
 
 (defun algebra-field-degree (expressions)
-  (let ((radicals nil) (turns 1))
+  (let ((radicals nil) (turns 1) (roots nil))
     (labels ((walk (e)
                (let ((turn (algebra-turn-of e)))
                  (cond ((atom e))
+                       ((algebra-real-root-p e) (pushnew e roots :test #'alike1))
                        (turn (setq turns (lcm turns (denominator turn))))
                        ((and (mexptp e) (ratnump (caddr e)))
                         (setq radicals (algebra-with-radical (cadr e) (caddr (caddr e)) radicals))
                         (walk (cadr e)))
                        (t (mapc #'walk (cdr e)))))))
       (mapc #'walk expressions))
-    (* (algebra-radicals-degree radicals)
+    (* (reduce #'* roots :key (lambda (root) (length (cddr (cadr root)))))
+       (algebra-radicals-degree radicals)
        (max 1 (floor (algebra-totient turns) 2)))))
 
 (defun algebra-with-radical (base degree radicals)

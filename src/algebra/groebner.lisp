@@ -11,33 +11,53 @@
   (core-require "algebra/size"))
 
 (defvar *algebra-degree-order* nil
-  "true: monomials in the order of their degrees (graded, reversed); false: lexicographic.")
+  "true: monomials in the order of their degrees (graded, reversed); first: by the first exponent,
+then so; false: lexicographic.")
 (defvar *algebra-work-left* 0 "how many coefficients may still be formed")
 (defvar *algebra-taken* nil "polynomials in parameters that were taken as not zero")
 
 ;;; Monomials
 
 (defun algebra-greater-monomial-p (a b)
-  (if *algebra-degree-order*
-      (algebra-greater-degree-p a b)
-      (loop for x fixnum in a
-            for y fixnum in b
-            unless (= x y) return (> x y))))
+  (cond ((null *algebra-degree-order*)
+         (loop for x fixnum in a
+               for y fixnum in b
+               unless (= x y) return (> x y)))
+        ((and (eq *algebra-degree-order* 'first) (/= (the fixnum (first a)) (the fixnum (first b))))
+         (> (the fixnum (first a)) (the fixnum (first b))))
+        (t (algebra-greater-degree-p a b))))
 
 (defun algebra-greater-degree-p (a b)
-  (let ((of-a (reduce #'+ a))
-        (of-b (reduce #'+ b))
+  (let ((of-a (algebra-exponents-degree a))
+        (of-b (algebra-exponents-degree b))
         (answer nil))
+    (declare (fixnum of-a of-b))
     (if (/= of-a of-b)
         (> of-a of-b)
-        (loop for x in a
-              for y in b
+        (loop for x fixnum in a
+              for y fixnum in b
               unless (= x y) do (setq answer (< x y))
               finally (return answer)))))
 
-(defun algebra-monomial-divides-p (a b) (every #'<= a b))
+(defun algebra-exponents-degree (a)
+  (let ((degree 0))
+    (declare (fixnum degree))
+    (dolist (x a degree) (incf degree (the fixnum x)))))
 
-(defun algebra-monomial-lcm (a b) (mapcar #'max a b))
+(defun algebra-monomial-divides-p (a b)
+  (loop for x fixnum in a
+        for y fixnum in b
+        always (<= x y)))
+
+(defun algebra-monomial-lcm (a b)
+  (loop for x fixnum in a
+        for y fixnum in b
+        collect (if (> x y) x y)))
+
+(defun algebra-coprime-p (a b)
+  (loop for x fixnum in a
+        for y fixnum in b
+        always (or (zerop x) (zerop y))))
 
 (defun algebra-monomial-quotient (a b) (mapcar #'- a b))
 
@@ -134,54 +154,67 @@
                                             (algebra-monomial-quotient lcm (algebra-lead p)) p)
                         (pminus d) (algebra-monomial-quotient lcm (algebra-lead q)) q))))
 
-;;; Buchberger's algorithm
+;;; Buchberger's algorithm, a pair being (i j lcm of the first terms); which pairs are needed:
+;;; R. Gebauer, H. M. Moeller, On an installation of Buchberger's algorithm, J. Symb. Comp. 6, 1988.
 
-(defun algebra-basis-of (polynomials)
-  "The reduced Groebner basis in the order at hand."
-  (let ((basis (make-array 8 :adjustable t :fill-pointer 0))
+(defun algebra-basis-of (polynomials &optional known degree)
+  "The reduced Groebner basis in the order at hand of POLYNOMIALS and the basis KNOWN; what does not
+come from pairs of more than a DEGREE."
+  (let ((basis (algebra-growing known))
         (pairs nil))
     (dolist (p polynomials)
-      (setq pairs (algebra-joined-to-basis p basis pairs)))
-    (loop while pairs
-          do (let ((pair (algebra-next-pair pairs)))
-               (setq pairs (delete pair pairs :test #'eq))
-               (unless (algebra-superfluous-pair-p pair basis pairs)
-                 (destructuring-bind (i j lcm) pair
-                   (declare (ignore lcm))
-                   (setq pairs (algebra-joined-to-basis
-                                (algebra-critical-polynomial (aref basis i) (aref basis j))
-                                basis pairs))))))
+      (setq pairs (algebra-joined-to-basis (algebra-rest-of p basis) basis pairs)))
+    (loop while (and pairs
+                     (or (null degree)
+                         (<= (algebra-exponents-degree (third (first pairs))) degree)))
+          do (let ((p (algebra-pair-polynomial (pop pairs) basis)))
+               (setq pairs (algebra-joined-to-basis (algebra-rest-of p basis) basis pairs))))
     (algebra-reduced-basis (coerce basis 'list))))
 
+(defun algebra-growing (elements)
+  (make-array (length elements) :adjustable t :fill-pointer t :initial-contents elements))
+
+(defun algebra-rest-of (p basis)
+  (algebra-without-content (values (algebra-divided-rest p (coerce basis 'list)))))
+
+(defun algebra-pair-polynomial (pair basis)
+  (algebra-critical-polynomial (aref basis (first pair)) (aref basis (second pair))))
+
 (defun algebra-joined-to-basis (p basis pairs)
-  "Joins the rest of P to the BASIS; the pairs to be looked at, new ones among them."
-  (let ((rest (algebra-without-content (algebra-divided-rest p (coerce basis 'list)))))
-    (if (null rest)
-        pairs
-        (let ((j (vector-push-extend rest basis)))
-          (algebra-take (algebra-lead-coefficient rest))
-          (append (loop for i below j
-                        collect (list i j (algebra-monomial-lcm (algebra-lead (aref basis i))
-                                                                (algebra-lead rest))))
-                  pairs)))))
+  "Joins P, a rest by the BASIS, to it; the pairs to be looked at, new ones among them."
+  (if (null p)
+      pairs
+      (let ((h (algebra-lead p))
+            (j (vector-push-extend p basis)))
+        (algebra-take (algebra-lead-coefficient p))
+        (merge 'list
+               (sort (algebra-needed-pairs h j basis) #'algebra-pair-before-p)
+               (remove-if (lambda (pair) (algebra-pair-covered-p pair h basis)) pairs)
+               #'algebra-pair-before-p))))
 
-(defun algebra-next-pair (pairs)
-  (let ((best (first pairs)))
-    (dolist (pair (rest pairs) best)
-      (when (algebra-greater-degree-p (third best) (third pair)) (setq best pair)))))
+(defun algebra-pair-before-p (a b) (algebra-greater-degree-p (third b) (third a)))
 
-(defun algebra-superfluous-pair-p (pair basis pairs)
-  "Buchberger's two criteria."
+(defun algebra-pair-covered-p (pair h basis)
+  "Whether the PAIR follows from those of both its elements with the new one, of first term H."
   (destructuring-bind (i j lcm) pair
-    (or (equal lcm (mapcar #'+ (algebra-lead (aref basis i)) (algebra-lead (aref basis j))))
-        (loop for k below (length basis)
-              thereis (and (/= k i) (/= k j)
-                           (algebra-monomial-divides-p (algebra-lead (aref basis k)) lcm)
-                           (not (algebra-waiting-p i k pairs))
-                           (not (algebra-waiting-p j k pairs)))))))
+    (and (algebra-monomial-divides-p h lcm)
+         (not (equal lcm (algebra-monomial-lcm h (algebra-lead (aref basis i)))))
+         (not (equal lcm (algebra-monomial-lcm h (algebra-lead (aref basis j))))))))
 
-(defun algebra-waiting-p (i j pairs)
-  (find-if (lambda (pair) (and (= (first pair) (min i j)) (= (second pair) (max i j)))) pairs))
+(defun algebra-needed-pairs (h j basis)
+  "Of the pairs of element J, of first term H, with those before it."
+  (let ((waiting (loop for i below j
+                       collect (list i j (algebra-monomial-lcm h (algebra-lead (aref basis i))))))
+        (kept '()))
+    (loop while waiting
+          do (let* ((pair (pop waiting))
+                    (lcm (third pair)))
+               (flet ((divides-p (other) (algebra-monomial-divides-p (third other) lcm)))
+                 (when (or (algebra-coprime-p h (algebra-lead (aref basis (first pair))))
+                           (notany #'divides-p (append kept waiting)))
+                   (push pair kept)))))
+    (remove-if (lambda (pair) (algebra-coprime-p h (algebra-lead (aref basis (first pair)))))
+               kept)))
 
 (defun algebra-reduced-basis (basis)
   (let ((least (loop for g in basis

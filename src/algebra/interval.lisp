@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/noun_values" "algebra/nouns"))
+  (core-require "algebra/size" "algebra/noun_values" "algebra/nouns" "algebra/real_roots"))
 
 (defvar *algebra-interval-bits* 64)
 (defvar *algebra-point* nil "values of symbols and open functions: (expression . rational), ..")
@@ -46,7 +46,8 @@
 
 (defun algebra-i-function (e)
   (let ((x (and (cdr e) (null (cddr e)) (cadr e))))
-    (case (and x (caar e))
+    (case (and (or x (algebra-real-root-p e)) (caar e))
+      (|$RealRoot| (algebra-i-real-root (cdadr e) (caddr e)))
       (%sin (cdr (algebra-i-angle (algebra-i-of x))))
       (%cos (car (algebra-i-angle (algebra-i-of x))))
       (%tan (algebra-i-tangent (algebra-i-angle (algebra-i-of x))))
@@ -64,6 +65,10 @@
                          (algebra-i-asin (algebra-i-of x))))
       (mabs (algebra-i-abs (algebra-i-of x)))
       (t (algebra-i-noun e)))))
+
+(defun algebra-i-real-root (p k)
+  (destructuring-bind (low . high) (algebra-root-enclosure p k (+ 2 *algebra-interval-bits*))
+    (cons (car (algebra-i low)) (cdr (algebra-i high)))))
 
 (defun algebra-i-noun (e)
   "By its value; else an integral by parts of the interval, an open function as it is given."

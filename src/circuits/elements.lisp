@@ -6,8 +6,9 @@
 (in-package :maxima)
 
 (core-record circuits-branch
-  "Types L C R RU RI E I EV G F H (ARCHIVE: kind = circuit). `state' is the name of the current of
-an L, of the voltage of a C, else false; `control' the nodes or the label of a controlled source."
+  "Types L C R RU RI E I EV G F H O (ARCHIVE: kind = circuit). `state' is the name of the current
+of an L, of the voltage of a C, else false; `control' the nodes or the label that control a source,
+the two inputs of an O."
   label tail head type value number (state nil) (control '((mlist simp))))
 
 (core-record circuits-transformer
@@ -29,10 +30,11 @@ weights, [k, w]."
 
 (core-record circuits-circuit
   "Branches; sign 1, passive, or -1, generator; the section of the branches, for messages; laws
-[f(u) = .., ..]. `windings' are those that others determine, `magnetizing' gives their currents,
+[f(u) = .., ..]. `windings' are those that others determine; made ideal, they stand in `ideal', and
+`magnetizing' gives the currents of the inductors that magnetize them,
 `datum' is the node of zero potential, `potential' a given P, else false."
   branches sign section laws
-  (couplings '((mlist simp))) (transformers '((mlist simp))) (windings '((mlist simp)))
+  (couplings '((mlist simp))) (transformers '((mlist simp))) (windings '((mlist simp))) (ideal '((mlist simp)))
   (magnetizing '((mlist simp))) (chosen_tree '((mlist simp))) (datum '$none) (potential nil))
 
 (core-record (circuits-structure circuits-circuit)

@@ -11,6 +11,10 @@
 (core-middle "circuit" '("circuit") "circuits/circuit" "circuits_read_circuit" "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
+;;; The sparse tableau, solved for independent states
+
+(core-middle "tableau" '("circuit") "circuits/solved_tableau" "circuits_solved_tableau" "circuit")
+
 (core-argument :formula "MixedPotential")
 (core-argument :branches "inductances" "capacitances")
 
@@ -19,30 +23,61 @@
 
 (core-public "PotentialParts" :kinds '("circuit"))
 (core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts"
-  "network" "own_parts")
+  "circuit" "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
 (core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
-  "network" "own_parts")
+  "circuit" "network" "own_parts")
 
 (core-option :truth "solved" "matrices")
 (core-public "StateEquations"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
   :options '("solved" "matrices") :kinds '("circuit"))
-(core-rule "StateEquations" '("circuit") "circuits/state" "circuits_system_equations"
-  "circuit" "network" "own_parts" "MixedPotential" '("solved" nil) '("matrices" nil))
+(core-rule "StateEquations" '("circuit") "circuits/solved_tableau" "circuits_tableau_answer"
+  "tableau" '("solved" nil) '("matrices" nil))
+(loop for given in '("potential" (:edited "MixedPotential"))
+      do (core-rule-given given "StateEquations" '("circuit") "circuits/state"
+           "circuits_system_equations" "tableau" "network" "own_parts" "MixedPotential"
+           '("solved" nil) '("matrices" nil)))
 (core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
   "MixedPotential" "inductances" "capacitances" '("solved" nil))
 
+;;; What each branch does
+
+(core-public "BranchQuantities" :kinds '("circuit"))
+(core-rule "BranchQuantities" '("circuit") "circuits/branch_quantities"
+  "circuits_branch_quantities" "circuit" "tableau")
+
 (core-public "PotentialRate"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances")) :kinds '("circuit"))
-(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "network"
-  "own_parts" "MixedPotential")
+(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "circuit"
+  "network" "own_parts" "MixedPotential")
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
+
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports"
+  "circuits_port_hamiltonian" "circuit")
+
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
+
+;;; Transfer functions; `poles' gives a record with poles and zeros
+
+(core-option :truth "poles")
+(core-argument :formula "output")
+(core-argument :variable "input")
+(core-rule "response" '("circuit") "circuits/transfer" "circuits_transfer_function"
+  "circuit" "output" "input")
+(core-rule "driving_point" '("circuit") "circuits/transfer" "circuits_impedance"
+  "circuit" "from_node" "to_node")
+(loop for (name quantity . trailing) in '(("TransferFunction" "response" "output" "input")
+                                          ("Impedance" "driving_point" "from_node" "to_node"))
+      do (core-public name :trailing trailing :options '("poles") :kinds '("circuit"))
+         (core-rule-same-as name '("circuit") quantity)
+         (core-rule-given '("poles" t) name '("circuit") "circuits/transfer"
+           "circuits_poles_and_zeros" quantity))
 
 ;;; Rates of a run; where a potential is given, by its equations; Routh's and Hamilton's forms of a
 ;;; linear circuit are those in loop charges

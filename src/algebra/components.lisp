@@ -1,0 +1,206 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; Polynomials in unknowns, parameters in general position: the set where all of them vanish, taken
+;;; apart into components.  Of a Groebner basis by degrees the least element with several factors is
+;;; taken: there the first factor vanishes, or the second and not the first, and so on (the algorithm
+;;; of Buchberger with factors: Czapor; Graebe).  What does not vanish has an inverse, one variable z
+;;; with 1 - z*product = 0 that stays in the basis and is greater than all, so that the elements
+;;; without z are the ideal of the closure of the component: all of it solves the equations.  Where a
+;;; basis would cost too much the equations are left as they are.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/common_roots" "algebra/general_form" "algebra/groebner"
+                "algebra/kernels"))
+
+(defparameter *algebra-most-components* 400 "how many branches are looked at")
+(defparameter *algebra-most-factored* 60 "terms of an element up to which it is factored")
+
+(defvar *algebra-factors-found* nil "the factors of elements that were met, by their terms")
+
+(defstruct (algebra-branch (:conc-name algebra-branch-))
+  elements        ; a basis, z in some
+  product         ; what does not vanish
+  new)            ; polynomials that vanish as well
+
+(defun $algebra_components (polynomials names apart work)
+  "[[[[e, ..], dimension], ..], taken]: components where POLYNOMIALS vanish and none of APART does,
+and the parameters that were taken as not zero; the dimension is false where no basis was found
+within the WORK, a count of coefficients.  false where there are roots or functions of NAMES, a
+sentence where there is too much."
+  (algebra-with-polynomials `((mlist) ,@(cdr polynomials) ,@(cdr apart)) names
+    (lambda (terms numbers kernels)
+      (declare (ignore numbers))
+      (let* ((*algebra-taken* nil)
+             (*algebra-degree-order* 'first)
+             (*algebra-work-left* (core-sized work))
+             (*algebra-factors-found* (make-hash-table :test #'equal))
+             (of-apart (length (cdr apart)))
+             (components (algebra-components-of (butlast terms of-apart) (last terms of-apart)
+                                                kernels)))
+        (flet ((expressions (basis)
+                 (cons '(mlist simp) (loop for p in basis collect (algebra-expression-of p kernels)))))
+          (list '(mlist simp)
+                (cons '(mlist simp)
+                      (loop for (basis . dimension) in components
+                            collect (list '(mlist simp) (expressions (algebra-without-z basis))
+                                          dimension)))
+                (cons '(mlist simp) (mapcar #'algebra-general *algebra-taken*))))))))
+
+(defun algebra-components-of (polynomials apart kernels)
+  "A list of (basis . dimension)."
+  (let ((waiting (list (algebra-first-branch polynomials apart (length kernels))))
+        (work *algebra-work-left*)
+        (count 0)
+        (components '()))
+    (loop while waiting
+          do (when (> (incf count) (core-sized *algebra-most-components*))
+               (throw 'algebra-too-large 'too-large))
+             (let* ((branch (pop waiting))
+                    (grown (catch 'algebra-too-large (algebra-basis-of-branch branch))))
+               (cond ((eq grown 'too-large)
+                      (push (list (algebra-given-equations branch)) components)
+                      (setq *algebra-work-left* (floor work 4)))
+                     (t (let* ((basis (algebra-branch-elements grown))
+                               (factors (algebra-factors-in basis kernels)))
+                          (if factors
+                              (setq waiting (append (algebra-branches-by factors grown) waiting))
+                              (let ((component (algebra-component basis (length kernels))))
+                                (when component (push component components)))))))))
+    (nreverse components)))
+
+(defun algebra-given-equations (branch)
+  (remove-if-not #'algebra-free-of-z-p
+                 (append (algebra-branch-elements branch) (algebra-branch-new branch))))
+
+(defun algebra-component (basis n)
+  "(generators . dimension) of the closure; nil where it is empty."
+  (let ((closure (remove-if-not #'algebra-free-of-z-p basis)))
+    (unless (algebra-everywhere-nonzero-p closure)
+      (cons (algebra-ideal-generators closure) (algebra-dimension closure n)))))
+
+(defun algebra-first-branch (polynomials apart count)
+  (let ((one (list (cons (make-list (1+ count) :initial-element 0) 1))))
+    (algebra-with-product (make-algebra-branch
+                           :new (algebra-sorted-polynomials (mapcar #'algebra-with-z polynomials)))
+                          (reduce #'algebra-terms-product (mapcar #'algebra-with-z apart)
+                                  :initial-value one))))
+
+(defun algebra-with-z (terms)
+  (loop for (exponents . a) in terms collect (cons (cons 0 exponents) a)))
+
+(defun algebra-without-z (basis)
+  (loop for p in basis collect (loop for (exponents . a) in p collect (cons (cdr exponents) a))))
+
+(defun algebra-free-of-z-p (p) (zerop (first (algebra-lead p))))
+
+(defun algebra-basis-of-branch (branch)
+  (let ((basis (algebra-basis-of (algebra-branch-new branch) (algebra-branch-elements branch))))
+    (make-algebra-branch :elements basis :product (algebra-branch-product branch))))
+
+(defun algebra-factors-in (basis kernels)
+  "Of the least element that has several."
+  (loop for p in (reverse basis) thereis (algebra-element-factors p kernels)))
+
+(defun algebra-inverse-equation (product)
+  "z*PRODUCT - 1"
+  (append (loop for (exponents . a) in product collect (cons (cons 1 (cdr exponents)) a))
+          (list (cons (make-list (length (algebra-lead product)) :initial-element 0) -1))))
+
+(defun algebra-everywhere-nonzero-p (basis)
+  (some (lambda (p) (every #'zerop (algebra-lead p))) basis))
+
+(defun algebra-branches-by (factors branch)
+  "Where the first of the FACTORS vanishes, the second and not the first, and so on."
+  (let ((product (algebra-branch-product branch)))
+    (loop for factor in factors
+          for part = (copy-algebra-branch branch)
+          while product
+          do (push factor (algebra-branch-new part))
+          collect (if (eq product (algebra-branch-product branch))
+                      part
+                      (algebra-with-product part product))
+          do (setq product (values (algebra-divided-rest
+                                    (algebra-terms-product product factor)
+                                    (algebra-branch-elements branch)))))))
+
+(defun algebra-with-product (branch product)
+  "The BRANCH where the PRODUCT does not vanish: elements with z go."
+  (flet ((without-z (polynomials) (remove-if-not #'algebra-free-of-z-p polynomials)))
+    (make-algebra-branch :elements (without-z (algebra-branch-elements branch))
+                         :product product
+                         :new (append (without-z (algebra-branch-new branch))
+                                      (list (algebra-inverse-equation product))))))
+
+;;; Generators: elements of a basis that follow from lower ones are left out, as far as pairs up to
+;;; their degrees show.
+
+(defun algebra-ideal-generators (basis)
+  (let* ((waiting (sort (copy-list basis)
+                        (lambda (p q) (algebra-greater-degree-p (algebra-lead q)
+                                                                (algebra-lead p)))))
+         (generators '())
+         (of-generators '()))
+    (dolist (p waiting (nreverse generators))
+      (when (algebra-divided-rest p of-generators)
+        (push p generators)
+        (setq of-generators (algebra-basis-of (list p) of-generators
+                                              (reduce #'+ (algebra-lead
+                                                           (car (last waiting))))))))))
+
+;;; Factors
+
+(defun algebra-element-factors (p kernels)
+  "The different factors of P with unknowns in them; nil where P is one of them."
+  (multiple-value-bind (found known) (gethash p *algebra-factors-found*)
+    (if known
+        found
+        (setf (gethash p *algebra-factors-found*)
+              (and (algebra-free-of-z-p p)
+                   (<= (length p) *algebra-most-factored*)
+                   (algebra-new-element-factors p kernels))))))
+
+(defun algebra-new-element-factors (p kernels)
+  (let ((factors (loop for (factor nil) on (pfactor (algebra-polynomial-of-terms p kernels))
+                       by #'cddr
+                       for terms = (algebra-factor-terms factor kernels)
+                       unless (algebra-everywhere-nonzero-p (list terms)) collect terms)))
+    (if (and (null (cdr factors))
+             (equal (algebra-lead (car factors)) (algebra-lead p)))
+        nil
+        (algebra-sorted-polynomials factors))))
+
+(defun algebra-polynomial-of-terms (p kernels)
+  "P, free of z, as a polynomial of Maxima."
+  (let ((sum 0))
+    (loop for ((nil . exponents) . a) in p
+          do (let ((term a))
+               (loop for exponent in exponents
+                     for kernel in kernels
+                     unless (zerop exponent)
+                       do (setq term (ptimes term (list (algebra-kernel-variable kernel)
+                                                        exponent 1))))
+               (setq sum (pplus sum term))))
+    sum))
+
+(defun algebra-factor-terms (factor kernels)
+  (sort (algebra-with-z (algebra-monomial-terms factor (mapcar #'algebra-kernel-variable kernels)))
+        #'algebra-greater-monomial-p :key #'car))
+
+(defun algebra-terms-product (p q)
+  (let ((sum nil))
+    (loop for (shift . a) in q
+          do (setq sum (algebra-combined 1 sum a shift p)))
+    sum))
+
+;;; Dimension: the most unknowns of which no first term is made.
+
+(defun algebra-dimension (basis n)
+  (let ((supports (loop for p in basis
+                        collect (loop for exponent in (cdr (algebra-lead p))
+                                      for k from 0
+                                      unless (zerop exponent) sum (ash 1 k)))))
+    (loop for unknowns below (ash 1 n)
+          unless (some (lambda (support) (zerop (logandc2 support unknowns))) supports)
+            maximize (logcount unknowns))))

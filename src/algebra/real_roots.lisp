@@ -1,0 +1,123 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;;
+;;; RealRoot([a0, .., an], k), the k-th real root from below of a0*x^n + .. + an with whole numbers,
+;;; an exact constant where no formula gives the root.  It is isolated by Sturm's chain; the interval
+;;; is made smaller by quadratic interval refinement (J. Abbott, Quadratic interval refinement for
+;;; real roots, 2006) as far as a sign needs it.  float and bfloat give its value.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/size" "algebra/sturm"))
+
+(defun algebra-real-root-p (e)
+  (and (consp e) (consp (car e)) (eq (caar e) '|$RealRoot|)
+       (= (length e) 3)
+       ($listp (cadr e))
+       (every #'integerp (cdadr e))
+       (typep (caddr e) '(integer 1))))
+
+(defun $algebra_real_root_constants (coefficients)
+  "The real roots in order of a polynomial with rational COEFFICIENTS, highest first."
+  (let ((p (algebra-primitive (mapcar #'algebra-rational-number (cdr coefficients)))))
+    (cons '(mlist simp)
+          (loop for k from 1 to (algebra-real-roots-between p nil nil)
+                collect (simplify `((|$RealRoot|) ((mlist) ,@p) ,k))))))
+
+;;; What Maxima's simplifier makes of it: a number where float or bfloat went through.
+
+(defun algebra-simplified-real-root (e ignored simplified)
+  (declare (ignore ignored))
+  (let* ((parts (mapcar (lambda (part) (simpcheck part simplified)) (cdr e)))
+         (root (cons '(|$RealRoot|) parts)))
+    (cond ((algebra-real-root-p root)
+           (algebra-require-root (cdar parts) (cadr parts))
+           (eqtest root e))
+          ((and (= (length parts) 2) ($listp (car parts))
+                (some #'floatp (cdar parts)) (every #'realp (cons (cadr parts) (cdar parts))))
+           (coerce (algebra-root-near (mapcar #'rational (cdar parts)) (round (cadr parts)) 60)
+                   'double-float))
+          ((and (= (length parts) 2) ($listp (car parts)) (some #'$bfloatp (cdar parts)))
+           ($bfloat (algebra-maxima-rational
+                     (algebra-root-near (mapcar #'algebra-exact-number (cdar parts))
+                                        (round (algebra-exact-number (cadr parts)))
+                                        (+ 10 fpprec)))))
+          (t (eqtest root e)))))
+
+(setf (get '|$RealRoot| 'operators) 'algebra-simplified-real-root)
+
+(defun algebra-exact-number (x)
+  (if ($bfloatp x)
+      (* (cadr x) (expt 2 (- (caddr x) (third (car x)))))
+      (rational x)))
+
+(defun algebra-require-root (p k)
+  (let ((count (if (some #'plusp (mapcar #'abs p)) (algebra-real-roots-between p nil nil) 0)))
+    (when (> k count)
+      (core-error "RealRoot: the polynomial has ~D real root~:P; there is no root ~D" count k))))
+
+(defun algebra-root-near (p k bits)
+  (destructuring-bind (low . high) (algebra-root-enclosure (algebra-primitive p) k bits)
+    (/ (+ low high) 2)))
+
+;;; Enclosures
+
+(defvar *algebra-root-enclosures* (make-hash-table :test #'equal)
+  "(p . k) -> (p without multiple roots, low, high), the smallest that was asked for")
+
+(defun algebra-root-enclosure (p k bits)
+  "(low . high), rational, less than 2^-BITS apart."
+  (when (> (hash-table-count *algebra-root-enclosures*) 500)
+    (clrhash *algebra-root-enclosures*))
+  (let* ((key (cons p k))
+         (known (or (gethash key *algebra-root-enclosures*) (algebra-isolated-root p k)))
+         (finer (apply #'algebra-refined-root (append known (list bits)))))
+    (setf (gethash key *algebra-root-enclosures*) (cons (first known) finer))
+    (cons (first finer) (second finer))))
+
+(defun algebra-isolated-root (p k)
+  "(square-free p, low, high); P has no root at LOW, and one up to HIGH, the K-th."
+  (let* ((chain (algebra-sturm-chain p))
+         (p (first chain))
+         (high (1+ (ceiling (reduce #'max (mapcar #'abs (cdr p))) (abs (car p)))))
+         (low (- high))
+         (before 0))
+    (loop until (and (= 1 (algebra-chain-roots chain low high))
+                     (/= 0 (algebra-sign-of-value p low)))
+          do (let* ((middle (/ (+ low high) 2))
+                    (count (algebra-chain-roots chain low middle)))
+               (if (>= (+ before count) k)
+                   (setq high middle)
+                   (setq low middle
+                         before (+ before count)))))
+    (list p low high)))
+
+(defun algebra-polynomial-at (p x)
+  (let ((value 0))
+    (dolist (c p value) (setq value (+ (* value x) c)))))
+
+(defun algebra-refined-root (p low high bits)
+  "(low high): of N parts of the interval that is tried where a straight line ends in zero."
+  (let ((parts 4)
+        (width (/ 1 (ash 1 bits)))
+        (of-low (algebra-polynomial-at p low))
+        (of-high (algebra-polynomial-at p high)))
+    (loop
+      (cond ((zerop of-high) (return (list high high)))
+            ((<= (- high low) width) (return (list low high))))
+      (let* ((step (/ (- high low) parts))
+             (k (max 0 (min (1- parts) (floor (* parts of-low) (- of-low of-high)))))
+             (found nil))
+        (dolist (j (list k (1- k) (1+ k)))
+          (when (and (not found) (< -1 j parts))
+            (let* ((a (+ low (* j step)))
+                   (b (+ a step))
+                   (of-a (if (zerop j) of-low (algebra-polynomial-at p a)))
+                   (of-b (if (= j (1- parts)) of-high (algebra-polynomial-at p b))))
+              (when (and (/= 0 of-a) (or (zerop of-b) (minusp (* (signum of-a) (signum of-b)))))
+                (setq found (list a b of-a of-b))))))
+        (if found
+            (setq low (first found) high (second found)
+                  of-low (third found) of-high (fourth found)
+                  parts (* parts parts))
+            (setq parts (max 2 (isqrt parts))))))))
