@@ -16,14 +16,14 @@ public_functions() {
 
 calls() {
   (cd "$root/examples" && ls ./*.txt | sed 's|^\./||') | while read -r archive; do
-    public_functions | sed "s/\$/(\"$archive\")/"
+    public_functions | sed "s/\$/(\"$archive\", progress = false)/" # its lines come when they come
   done
   cat <<'END'
-LagrangeEquations("spherical_pendulum.txt", simplify = true)
-InvariantManifolds("spherical_pendulum.txt", extend = [theta])
-Equilibria("equilibria.txt", where = [])
-ErrorAgainstTime("coupled_pendulums.txt", tolerances = [1e-30])
-ReferenceSolution("coupled_pendulums.txt")
+LagrangeEquations("spherical_pendulum.txt", simplify = true, progress = false)
+InvariantManifolds("spherical_pendulum.txt", extend = [theta], progress = false)
+Equilibria("equilibria.txt", where = [], progress = false)
+ErrorAgainstTime("coupled_pendulums.txt", tolerances = [1e-30], progress = false)
+ReferenceSolution("coupled_pendulums.txt", progress = false)
 END
 }
 
@@ -36,7 +36,6 @@ session() {
   } >"$1/session.mac"
   (cd "$1" && "$root/tools/maxima" --very-quiet <session.mac >answers 2>&1)
   (cd "$1" && awk '/^== [0-9]+$/ { printf "%s", text >$2; text = ""; next }
-                         /((computing|reading).*|^[A-Za-z]*: .*), [0-9]+ s *$/ { next } # progress tells the time
                          { text = text $0 "\n" }' answers)
 }
 

@@ -106,12 +106,46 @@
 
 (defun algebra-sorted-sum (p variables)
   (let* ((sorted (sort variables (lambda (a b) (great (get b 'disrep) (get a 'disrep)))))
-         (factors (mapcar #'algebra-factor-table sorted))
-         (terms (algebra-flat-terms p sorted)))
-    (setq terms (sort terms #'algebra-monomial-before :key #'car))
-    (let ((expressions (loop for (exponents . coefficient) in terms
-                             collect (algebra-term-expression exponents coefficient factors))))
-      (if (cdr expressions) (cons '(mplus simp) expressions) (car expressions)))))
+         (terms (if (algebra-variables-in-order-p sorted)
+                    (algebra-ordered-terms p)
+                    (algebra-terms-to-sort p sorted))))
+    (if (cdr terms) (cons '(mplus simp) terms) (car terms))))
+
+(defun algebra-variables-in-order-p (sorted)
+  "Whether the polynomials' own order of variables is Maxima's."
+  (loop for (a b) on sorted
+        always (or (null b) (< (symbol-value a) (symbol-value b)))))
+
+(defun algebra-ordered-terms (p)
+  "Its terms in order: the greatest variable is outermost, terms share the factors behind."
+  (let ((terms '()) (factors (make-hash-table :test #'eq)))
+    (labels ((factor (variable exponent)
+               (algebra-factor (or (gethash variable factors)
+                                   (setf (gethash variable factors)
+                                         (algebra-factor-table variable)))
+                               exponent))
+             (walk (p behind)
+               (if (atom p)
+                   (push (algebra-monomial-expression p behind) terms)
+                   (loop for (exponent coefficient) on (cdr p) by #'cddr
+                         do (walk coefficient
+                                  (if (eql exponent 0)
+                                      behind
+                                      (cons (factor (car p) exponent) behind)))))))
+      (walk p '()))
+    terms))
+
+(defun algebra-monomial-expression (coefficient factors)
+  (cond ((null factors) coefficient)
+        ((not (eql coefficient 1)) (list* '(mtimes simp) coefficient factors))
+        ((cdr factors) (cons '(mtimes simp) factors))
+        (t (car factors))))
+
+(defun algebra-terms-to-sort (p sorted)
+  (let ((factors (mapcar #'algebra-factor-table sorted)))
+    (loop for (exponents . coefficient) in (sort (algebra-flat-terms p sorted)
+                                                 #'algebra-monomial-before :key #'car)
+          collect (algebra-term-expression exponents coefficient factors))))
 
 (defun algebra-flat-terms (p sorted)
   "A list of (exponents . number), the exponents a vector in the order of SORTED."
@@ -146,10 +180,9 @@
             (setf (gethash exponent powers) (list '(mexpt simp) base exponent))))))
 
 (defun algebra-term-expression (exponents coefficient factors)
-  (let ((product (loop for table in factors
-                       for k from 0
-                       for exponent = (svref exponents k)
-                       unless (zerop exponent) collect (algebra-factor table exponent))))
-    (unless (and (eql coefficient 1) product)
-      (push coefficient product))
-    (if (cdr product) (cons '(mtimes simp) product) (car product))))
+  (algebra-monomial-expression
+   coefficient
+   (loop for table in factors
+         for k from 0
+         for exponent = (svref exponents k)
+         unless (zerop exponent) collect (algebra-factor table exponent))))

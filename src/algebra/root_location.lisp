@@ -10,7 +10,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/constant_sign" "algebra/interval" "algebra/sturm"))
+  (core-require "algebra/size" "algebra/constant_sign" "algebra/interval" "algebra/routh_array"
+                "algebra/sturm"))
 
 ;;; Signed subresultants of two polynomials with real constants as coefficients, and what follows
 ;;; from their signs: Cauchy's index of Q/P and the greatest common divisor (Basu, Pollack, Roy,
@@ -220,15 +221,29 @@ coefficient a of S*P the coefficients of a*g are algebraic integers (Gauss), in 
 
 (defun $algebra_located (coefficients)
   "[left, axis, right]; false where a coefficient is not algebraic and intervals do not decide."
-  (algebra-with-digits (cdr coefficients)
-                       (lambda (p degree) (cons '(mlist simp) (algebra-located p degree)))))
+  (let* ((whole (algebra-whole-coefficients (cdr coefficients)))
+         (places (if whole
+                     (algebra-located-whole whole #'algebra-located-by-index)
+                     (algebra-located-by-index (cdr coefficients)))))
+    (and places (cons '(mlist simp) places))))
+
+(defun algebra-whole-coefficients (coefficients)
+  "Rational ones without fractions and leading zeros; nil where there are others."
+  (let ((numbers (mapcar #'algebra-rational-number coefficients)))
+    (and (notany #'null numbers) (algebra-primitive numbers))))
+
+(defun algebra-located-by-index (coefficients)
+  (algebra-with-digits coefficients #'algebra-located))
 
 (defun $algebra_simple_symmetric (coefficients)
   "yes or no: are the roots that lie symmetric about 0 simple; false as above."
-  (algebra-with-digits (cdr coefficients)
-                       (lambda (p degree)
-                         (declare (ignore degree))
-                         (if (algebra-simple-p (algebra-axis-divisor p)) '$yes '$no))))
+  (let ((whole (algebra-whole-coefficients (cdr coefficients))))
+    (if whole
+        (if (algebra-simple-whole-p whole) '$yes '$no)
+        (algebra-with-digits (cdr coefficients)
+                             (lambda (p degree)
+                               (declare (ignore degree))
+                               (if (algebra-simple-p (algebra-axis-divisor p)) '$yes '$no))))))
 
 (defun $algebra_distinct_real_roots (coefficients)
   "How many real numbers are roots of the polynomial, of degree 1 at least; false as above."

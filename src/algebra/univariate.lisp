@@ -9,8 +9,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/kernels" "algebra/normal" "algebra/minors"
-                "algebra/evaluate" "algebra/matrices" "algebra/quotient" "algebra/readable"
-                "algebra/relations" "algebra/scan"))
+                "algebra/evaluate" "algebra/matrices" "algebra/packed_minors" "algebra/quotient"
+                "algebra/readable" "algebra/relations" "algebra/scan"))
 
 (defun $algebra_coefficients (p x)
   "[a_0, .., a_n], highest power first."
@@ -67,7 +67,13 @@
   (or (and (<= (length (algebra-ring-kernels *algebra-ring*)) 2)
            (notany #'algebra-pair-p (algebra-ring-units *algebra-ring*))
            (algebra-routh-minors coefficients))
+      (and (algebra-independent-ring-p) (algebra-packed-hurwitz coefficients))
       (algebra-memoised-hurwitz coefficients)))
+
+(defun algebra-independent-ring-p ()
+  "Whether no relation binds the kernels."
+  (and (notany #'algebra-pair-p (algebra-ring-units *algebra-ring*))
+       (notany #'algebra-kernel-degree (algebra-ring-kernels *algebra-ring*))))
 
 (defun algebra-memoised-hurwitz (coefficients)
   (let* ((n (1- (length coefficients)))
@@ -148,8 +154,10 @@
 
 (defun algebra-expanded-powers (quotient variable x)
   "The expanded sum of coefficients times powers of X."
-  (addn (loop for (power coefficient) in (algebra-powers-of quotient variable x)
-              collect ($expand (mul (algebra-expanded-reduced (cons coefficient (cdr quotient)))
-                                    (power x power))
-                               1 1))
-        nil))
+  (if (eql (cdr quotient) 1)
+      (algebra-expanded-reduced quotient)
+      (addn (loop for (power coefficient) in (algebra-powers-of quotient variable x)
+                  collect ($expand (mul (algebra-expanded-reduced (cons coefficient (cdr quotient)))
+                                        (power x power))
+                                   1 1))
+            nil)))

@@ -53,3 +53,21 @@ conditions, which vanish; what is apart from zero."
 (core-record analysis-judgement
   "What a method, or a theorem, says: cases [[condition, ..], place], see conditions.mac."
   method cases)
+
+(core-record analysis-mixed
+  "A mixed potential P(i, u) with L*i' = P_i, C*u' = -P_u: names of the currents and voltages, lists
+of the slopes P_i, P_u; as lists of rows the matrices of inductances and capacitances, `resistance'
+A = -P_ii, `conductance' B = P_uu, gamma = P_iu."
+  whole currents voltages i_slopes u_slopes inductance capacitance resistance conductance gamma)
+
+(core-record analysis-search
+  "What the method of Routh and Lyapunov is asked of: the RATES x' of the variables, integrals V_j
+with their names and multipliers, among them those of a LEVEL that vanish, and the CONDITIONS that
+vanish where sum mu_j*V_j is stationary. UNITS vanish in each motion of bodies: of unit vectors what
+their squares exceed 1, and their product."
+  variables rates integrals names multipliers level conditions (units '((mlist simp))))
+
+(core-record analysis-manifold
+  "A stationary manifold: the SET [x = .., mu = ..], the DEVIATIONS e that vanish on it, and the
+RADICANDS that must not be negative."
+  set deviations radicands)

@@ -11,6 +11,8 @@
   (remove-if (lambda (kind) (member kind *analysis-states* :test #'string=))
              (core-kinds-giving "Lagrangian"))
   "Kinds whose equations are of second order.")
+(defparameter *analysis-bodiless* (remove "mechanical" *analysis-motions* :test #'string=)
+  "Those without bodies.")
 (defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
 (defparameter *analysis-none* '((mlist simp)))
 (defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
@@ -22,12 +24,14 @@
 (defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
 (defparameter *analysis-variables* (list "variables" *analysis-none*))
 
+(defparameter *analysis-integrals* (list "integrals" *analysis-none*))
+
 (defparameter *analysis-functions* (list "functions_derived" *analysis-none*)
   "What equations are derivatives of.")
 
 ;;; Arguments. K is a function, and a matrix where forces are given by theirs.
 
-(core-argument :formula "K" "polynomial")
+(core-argument :formula "K" "polynomial" "V")
 (core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
 (core-argument :variables "variables")
 (core-argument :variable "lambda" "u")
@@ -40,19 +44,35 @@
 
 ;;; Stationary sets
 
-(core-public "StationaryEquations" :forms '(("function" "K" "variables")) :kinds *analysis-motions*)
+(core-public "StationaryEquations" :forms '(("function" "K" "variables"))
+  :options '("where" "multipliers" "function") :kinds *analysis-motions*)
 (core-rule "StationaryEquations" '("function") "analysis/stationary"
   "analysis_stationary_equations" "K" "variables")
-(core-rule "StationaryEquations" *analysis-motions* "analysis/stationary"
+(core-rule "routh_stationary_equations" *analysis-motions* "analysis/stationary"
   "analysis_stationary_system" "RouthFunction" "remaining_coordinates" "actions")
+(core-rule-same-as "StationaryEquations" *analysis-bodiless* "routh_stationary_equations")
+(core-rule-same-as "StationaryEquations" '("mechanical") "routh_stationary_equations"
+  :given '("function" $routh))
+(core-rule "StationaryEquations" '("mechanical") "analysis/stationary_bodies"
+  "analysis_stationary_equations_of_bodies"
+  "carried_system" "routh_stationary_equations_asked" "special_cases_sought"
+  (list "multipliers" *analysis-none*))
 
 (core-public "StationarySolutions"
-  :forms '(("function" "K" "variables")) :options '("unknowns" "where") :kinds *analysis-motions*)
+  :forms '(("function" "K" "variables")) :options '("unknowns" "where" "multipliers" "function")
+  :kinds *analysis-motions*)
 (core-rule "StationarySolutions" '("function") "analysis/stationary" "analysis_stationary_solutions"
   "K" "variables" *analysis-unknowns* *analysis-where*)
-(core-rule "StationarySolutions" *analysis-motions* "analysis/stationary"
+(core-rule "routh_stationary_solutions" *analysis-motions* "analysis/stationary"
   "analysis_system_motions" "RouthFunction" "remaining_coordinates" "actions" *analysis-unknowns*
   *analysis-where*)
+(core-rule-same-as "StationarySolutions" *analysis-bodiless* "routh_stationary_solutions")
+(core-rule-same-as "StationarySolutions" '("mechanical") "routh_stationary_solutions"
+  :given '("function" $routh))
+(core-rule "StationarySolutions" '("mechanical") "analysis/stationary_bodies"
+  "analysis_stationary_solutions_of_bodies"
+  "carried_system" "routh_stationary_solutions_asked" "special_cases_sought"
+  (list "multipliers" *analysis-none*))
 
 (core-public "InvariantManifolds"
   :forms '(("function" "K" "variables")) :options '("extend" "within" "unknowns" "cyclic")
@@ -166,11 +186,30 @@
 (core-public "Stability"
   :forms '(("equations" "equations" "solution"))
   :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
-(core-rule "Stability" *analysis-states* "analysis/stability" "analysis_stability_state"
-  "motion")
-(core-rule "Stability" *analysis-motions* "analysis/stability_by_energy"
+(core-rule "Stability"
+  (set-difference *analysis-states* (core-kinds-giving "known_integrals") :test #'string=)
+  "analysis/stability" "analysis_stability_state" "motion")
+(core-rule "Stability" '("equations") "analysis/stability_by_integrals"
+  "analysis_stability_known"
+  "motion" *analysis-integrals* (list "level" *analysis-none*) *analysis-laws*)
+(core-rule "Stability" '("poisson") "analysis/stability_by_integrals"
+  "analysis_stability_poisson"
+  "motion" "hamiltonian" *analysis-integrals* "structure_matrix" *analysis-laws*)
+(core-rule "Stability" '("mechanical") "analysis/stability_of_bodies"
+  "analysis_stability_of_bodies"
+  "coordinates" "solution" "special_cases_sought" "motion_asked" "Lagrangian_asked" "actions"
+  "reduced_system_asked")
+(core-rule "Stability" *analysis-bodiless* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
+
+;;; Lyapunov's second method
+
+(core-public "LyapunovTest"
+  :forms '(("equations" "equations" "V" "solution"))
+  :trailing '("V" "solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
+(core-rule "LyapunovTest" *analysis-kinds* "analysis/lyapunov_test" "analysis_lyapunov_test"
+  "motion" "V" *analysis-laws*)
 
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
@@ -198,13 +237,40 @@
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers") :kinds (core-kinds-giving "known_integrals"))
+  :options '("where" "unknowns" "multipliers" "function")
+  :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
 (core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov"
-  "state_equations" "integrals_everywhere" "variables" "special_cases_sought"
+  "analysis_routh_lyapunov_on"
+  "state_equations" "integrals_on_level" "variables" "special_cases_sought"
   (list "multipliers" *analysis-none*) (list "solution" *analysis-none*))
-(core-rule "integrals_everywhere" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_integrals_everywhere" "known_integrals" (list "level" *analysis-none*))
+(core-rule "integrals_on_level" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
+  "analysis_integrals_on_level" "known_integrals" (list "level" *analysis-none*)
+  (list "within" *analysis-none*))
+
+;;; Mechanical systems as equations of the first order with integrals
+
+(core-rule "routh_system" *analysis-motions* "analysis/reduced_system" "analysis_routh_system"
+  "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) "actions"
+  *analysis-laws*)
+(core-rule-later "routh_system_asked" *analysis-motions* "routh_system")
+(loop for name in '("routh_stationary_equations" "routh_stationary_solutions")
+      do (core-rule-later (concatenate 'string name "_asked") *analysis-motions* name))
+(core-rule-later "motion_asked" *analysis-motions* "motion")
+(core-rule-later "Lagrangian_asked" *analysis-motions* "Lagrangian")
+(core-rule-later "reduced_system_asked" *analysis-motions* "reduced_system")
+(core-rule-later "euler_poisson_asked" '("mechanical") "EulerPoisson")
+(core-rule-later "variables_asked" '("mechanical") "variables_in_coordinates")
+(core-rule-same-as "reduced_system" *analysis-bodiless* "routh_system")
+(core-rule-same-as "reduced_system" '("mechanical") "routh_system" :given '("function" $routh))
+(core-rule "carried_system" '("mechanical") "analysis/reduced_system" "analysis_carried_system"
+  "euler_poisson_asked" "variables_asked" *analysis-functions* *analysis-laws* "coordinates")
+(core-rule "reduced_system" '("mechanical") "analysis/reduced_system" "analysis_reduced_system"
+  "carried_system" "routh_system_asked")
+
+(core-rule "RouthLyapunov" *analysis-motions* "analysis/routh_lyapunov"
+  "analysis_routh_lyapunov_motion"
+  "reduced_system" "coordinates" "special_cases_sought" (list "multipliers" *analysis-none*)
+  (list "solution" *analysis-none*))
 
 ;;; Matrices and forms
 
@@ -248,3 +314,22 @@
                                ("QuadraticIntegrals" "analysis_quadratic_integrals"))
       do (core-public name :forms '(("matrices" "A" "variables")))
          (core-rule name :any "analysis/linear_system" function "A" "variables"))
+
+;;; A mixed potential as Lyapunov's function
+
+(core-public "BraytonMoser" :options '("where" "solution") :kinds '("circuit"))
+(core-rule "BraytonMoser" '("circuit") "analysis/brayton_moser" "analysis_brayton_moser"
+  "MixedPotential" "potential_stores" *analysis-where*)
+(core-rule-given "solution" "BraytonMoser" '("circuit") "analysis/brayton_moser_verdict"
+  "analysis_brayton_moser_judged" "MixedPotential" "potential_stores" *analysis-where* "motion")
+
+(core-public "PolynomialIntegrals"
+  :forms '(("equations" "equations" "degree"))
+  :trailing '("degree") :options '("where" "integrals") :kinds *analysis-states*)
+(loop for (kinds integrals) in `((,(remove "poisson" *analysis-states* :test #'string=)
+                                  ,*analysis-integrals*)
+                                 (("poisson") "poisson_integrals"))
+      do (core-rule "PolynomialIntegrals" kinds "analysis/polynomial_integrals"
+           "analysis_polynomial_integrals"
+           "state_equations" *analysis-variables* "degree" integrals
+           (list "level" *analysis-none*) "special_cases"))

@@ -49,25 +49,24 @@ stand in [branches] or in graph."
 (defun archive-row-fields (row)
   (cdr (archive-right-side row)))
 
+(defun archive-row-type (row) (third (archive-row-fields row)))
+
+(defun archive-branch-value (row)
+  "The value of a branch, in a list; nil where it has none, as an operational amplifier."
+  (let ((fields (nthcdr *archive-row-value-field* (archive-row-fields row))))
+    (and fields (not (eq (archive-row-type row) '|$o|)) (list (first fields)))))
+
 (defun archive-row-labels (row)
   "What the branch may be called by: its label, or its value when that is a name."
   (remove-if-not #'archive-symbol-p
-                 (list (if (archive-equation-p row)
-                           (second row)
-                           (nth *archive-row-value-field* (archive-row-fields row))))))
+                 (if (archive-equation-p row) (list (second row)) (archive-branch-value row))))
 
 (defun archive-row-states (row)
   "The state that the row names, and the names it would have by default."
-  (append (remove-if-not #'archive-symbol-p
-                         (nthcdr (1+ *archive-row-value-field*) (archive-row-fields row)))
+  (append (archive-row-own-state row)
           (loop for label in (archive-row-labels row)
                 append (list (core-symbol (format nil "i_~a" (core-spelling label)))
                              (core-symbol (format nil "u_~a" (core-spelling label)))))))
-
-(defun archive-branch-value (row)
-  "The value of a branch, in a list; nil where it has none."
-  (let ((fields (nthcdr *archive-row-value-field* (archive-row-fields row))))
-    (and fields (list (first fields)))))
 
 (defun archive-last-fields (rows)
   "The values of couplings and transformers: M, the right side of k = 0.9, the ratio."

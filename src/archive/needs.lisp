@@ -102,6 +102,7 @@
           (cond ((rule-same rule) (list (rule-same rule)))
                 ((rule-record rule) (list (rule-record rule)))
                 ((rule-tried rule) (list (rule-tried rule)))
+                ((rule-later rule) (list (rule-later rule)))
                 (t (rule-inputs rule)))))
 
 (defun archive-condition-sources (condition)

@@ -148,6 +148,8 @@
      "Mixed potential, if it is given")
     ("datum" :node nil "node of zero potential; the first node of the first branch unless given"
      "Node of zero potential")
+    ("nodes" :nodes "[]"
+     "what nodes were called in the netlist that the archive was read from" "Names of nodes")
     ("tree" :names nil
      "labels of the branches of the proper tree, such as [C1, C2]; found unless given"
      "Labels of the tree's branches"))
@@ -187,3 +189,10 @@
   `(("hamiltonian" :expression :required "Hamilton's function" "Hamiltonian")
     ,@*archive-integral-rows*)
   :gives '(("state_equations" "poisson_equations") ("known_integrals" "poisson_integrals")))
+
+;;; SPICE netlists
+
+(core-option :truth "replace")
+(core-public "ReadNetlist" :forms '(("netlist" "netlist" "archive")) :options '("replace"))
+(core-rule "ReadNetlist" '("netlist") "archive/read_netlist" "archive_read_netlist"
+  "netlist" "archive" '("replace" nil))

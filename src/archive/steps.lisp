@@ -64,6 +64,7 @@ as the size of what is neglected, and count in no digest: a formula must not dep
         ((rule-record rule)
          (values (archive-field (archive-value call (rule-record rule)) (rule-field rule)) t))
         ((rule-tried rule) (values (archive-tried-value call (rule-tried rule)) t))
+        ((rule-later rule) (values (lambda () (archive-value call (rule-later rule))) t))
         (t (values (archive-compute call name rule) t))))
 
 (defparameter *archive-trying-time* 10 "Seconds for what is only tried.")

@@ -38,6 +38,7 @@
     (:pair archive-as-pair "two bodies, such as [1, 2]; 0 is the fixed axes")
     (:points archive-as-points "two points, such as [[0, 0, 0], [0, 0, l]]")
     (:node archive-as-node "an integer or a name")
+    (:nodes archive-as-nodes "a list of nodes and what they were called, such as [n_in = \"in\"]")
     (:states archive-as-states "a list of states by label, such as [i1 = L1, u3 = C3]")
     (:graph archive-as-graph "a list of branches, such as {{{1, 2}, L1}, {{2, 3}, C1, u1}}")
     (:skew archive-as-skew
@@ -279,6 +280,10 @@ those who compute with it."
 
 (defun archive-as-numbers (value)
   (archive-checked-equations value #'archive-a-name #'archive-a-number))
+
+(defun archive-as-nodes (value)
+  (archive-checked-equations value #'archive-a-name
+                             (lambda (e) (if (stringp e) e (archive-unfit)))))
 
 (defun archive-as-states (value)
   (archive-checked-equations value #'archive-a-name #'archive-a-name))

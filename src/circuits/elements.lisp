@@ -6,8 +6,9 @@
 (in-package :maxima)
 
 (core-record circuits-branch
-  "Types L C R RU RI E I EV G F H (ARCHIVE: kind = circuit). `state' is the name of the current of
-an L, of the voltage of a C, else false; `control' the nodes or the label of a controlled source."
+  "Types L C R RU RI E I EV G F H O (ARCHIVE: kind = circuit). `state' is the name of the current
+of an L, of the voltage of a C, else false; `control' the nodes or the label that control a source,
+the two inputs of an O."
   label tail head type value number (state nil) (control '((mlist simp))))
 
 (core-record circuits-transformer

@@ -11,6 +11,10 @@
 (core-middle "circuit" '("circuit") "circuits/circuit" "circuits_read_circuit" "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
+;;; The sparse tableau, solved for independent states
+
+(core-middle "tableau" '("circuit") "circuits/solved_tableau" "circuits_solved_tableau" "circuit")
+
 (core-argument :formula "MixedPotential")
 (core-argument :branches "inductances" "capacitances")
 
@@ -29,8 +33,12 @@
 (core-public "StateEquations"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
   :options '("solved" "matrices") :kinds '("circuit"))
-(core-rule "StateEquations" '("circuit") "circuits/state" "circuits_system_equations"
-  "circuit" "network" "own_parts" "MixedPotential" '("solved" nil) '("matrices" nil))
+(core-rule "StateEquations" '("circuit") "circuits/solved_tableau" "circuits_tableau_answer"
+  "tableau" '("solved" nil) '("matrices" nil))
+(loop for given in '("potential" (:edited "MixedPotential"))
+      do (core-rule-given given "StateEquations" '("circuit") "circuits/state"
+           "circuits_system_equations" "tableau" "network" "own_parts" "MixedPotential"
+           '("solved" nil) '("matrices" nil)))
 (core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
   "MixedPotential" "inductances" "capacitances" '("solved" nil))
 
@@ -40,6 +48,11 @@
   "own_parts" "MixedPotential")
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
+
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
+
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports"
+  "circuits_port_hamiltonian" "circuit")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")

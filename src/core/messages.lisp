@@ -138,6 +138,11 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
   "VALUE stands under KEY, a string, in the section of the result; it is no part of it."
   (push (cons key value) *core-report*))
 
+(defun $core_reported (key &rest items)
+  "ITEMS as one text under KEY, a string, in the section of the result."
+  (core-report key (core-words items))
+  '$done)
+
 (defun core-partial (control &rest arguments)
   "The result is only a part of what was asked: it is saved as such, and the call ends in an error
 with this sentence."

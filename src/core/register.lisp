@@ -22,6 +22,7 @@
   kinds given part function inputs same record field
   kept   ; t for a middle quantity: what it gives is kept for the calls that follow
   tried  ; the quantity of which this one is [value], or the text of the error that ends it
+  later  ; the quantity that this one gives when it is asked
   act)   ; t for what a call does at its end
 
 (defun core-public (name &key forms trailing options kinds numerical)
@@ -90,6 +91,15 @@ name), where the archive's result NAME was edited by hand."
   "NAME is [value] of the quantity OTHER, or the text of the error that ends it: for what does
 without."
   (core-add-rule name (make-core-rule :kinds kinds :tried other)))
+
+(defun core-rule-later (name kinds other)
+  "NAME gives the quantity OTHER when it is asked, by core_asked(NAME): for what is dear and may not
+be needed."
+  (core-add-rule name (make-core-rule :kinds kinds :later other)))
+
+(defun $core_asked (later)
+  "The value of the quantity that LATER, stated by core-rule-later, gives."
+  (funcall later))
 
 (defun core-act (name given kinds part function &rest inputs)
   "States what a call of the public function NAME does at its end, such as drawing: FUNCTION of PART

@@ -99,6 +99,14 @@
   "forms_hamilton_equations_of"
   "hamiltonian" "coordinates" '("momenta" ((mlist simp))) "canonical_actions" '("form" $auto))
 
+;;; Port-Hamiltonian form
+
+(core-public "PortHamiltonian"
+  :forms '(("lagrangian" "Lagrangian" "coordinates"))
+  :options '("momenta" "rayleigh" "forces") :kinds *forms-kinds*)
+(core-rule "PortHamiltonian" :any "forms/port_hamiltonian" "forms_port_hamiltonian"
+  "Hamiltonian" "HamiltonEquations" "coordinates" "actions")
+
 ;;; Dirac
 
 (defparameter *forms-dirac-inputs* '(("momenta" ((mlist simp))) "actions"))
@@ -182,6 +190,8 @@
 
 (core-rule "poisson_equations" '("poisson") "forms/poisson" "forms_poisson_equations"
   "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))) "hamiltonian")
+(core-rule "structure_matrix" '("poisson") "forms/poisson" "forms_structure_matrix"
+  "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))))
 (core-rule "poisson_integrals" '("poisson") "forms/poisson" "forms_poisson_integrals"
   "hamiltonian" '("integrals" ((mlist simp)))
   "variables" '("bracket" ((mlist simp))) '("algebra" ((mlist simp))))

@@ -106,3 +106,5 @@
 (core-public "EulerPoisson" :kinds '("mechanical"))
 (core-rule "EulerPoisson" '("mechanical") "linmodel/euler_poisson" "linmodel_euler_poisson"
            "scene" "remark_values" '("form" $auto))
+(core-rule "variables_in_coordinates" '("mechanical") "linmodel/euler_poisson"
+  "linmodel_variables_in_coordinates" "scene" "remark_values" '("form" $auto))

@@ -1,0 +1,110 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; Laws of a netlist's nonlinear branches. A diode: i = IS*(exp(u/(N*Vt)) - 1) at 27 degrees. B, a
+;;; source whose current is a formula of its own voltage, whose voltage is one of its own current,
+;;; or either one of the time. A power of what may be negative is refused, unless its exponent is
+;;; an even number: programs differ on it.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/netlist_lines" "archive/netlist_parts" "archive/netlist_values"
+                "archive/tokens"))
+
+(defparameter *archive-net-thermal*
+  (/ (* 138064852/100000000 30015/100) (* 16021766208/10000000000 10000))
+  "k*T/q in volts at T = 300.15 K, with ngspice's constants.")
+
+(defparameter *archive-net-diode-idle*
+  '("rs" "cjo" "cj0" "cj" "tt" "bv" "ibv" "vj" "m" "eg" "xti" "fc" "kf" "af" "tnom" "level")
+  "Parameters of a diode's model that its static law does not have; vj, m, fc, eg, xti say nothing
+while the others are 0.")
+
+(defun archive-net-diode-law (element model area)
+  (let* ((place (net-element-place element)) (saturation "(1/100000000000000)") (emission "1"))
+    (multiple-value-bind (found at) (archive-net-model model place)
+      (unless (string= (first found) "d")
+        (archive-net-fault "~a is no model of a diode" (archive-shown model)))
+      (loop for (name field) in (rest found)
+            for value = (archive-net-value field (net-place-scope at))
+            do (cond ((string-equal name "is") (setq saturation value))
+                     ((string-equal name "n") (setq emission value))
+                     (t (archive-net-check-idle name value)))))
+    (archive-net-spelled
+     (archive-net-parsed (format nil "~a*~a*(exp(u/(~a*~d/~d)) - 1)" area saturation emission
+                                 (numerator *archive-net-thermal*)
+                                 (denominator *archive-net-thermal*))))))
+
+(defun archive-net-check-idle (name value)
+  (unless (and (member name *archive-net-diode-idle* :test #'string-equal)
+               (or (string= value "0")
+                   (member name '("vj" "m" "eg" "xti" "fc" "kf" "af") :test #'string-equal)
+                   (and (string-equal name "level") (string= value "1"))
+                   (and (string-equal name "tnom") (string= value "27"))))
+    (archive-net-fault "the parameter ~a = ~a of a diode is not read; IS and N are" name value)))
+
+;;; B
+
+(defun archive-net-behaviour-law (element node)
+  "Three values: the branch's type, the formula, and whether it is a law of the branch's own voltage
+u or current i; NODE gives the whole name of a node."
+  (multiple-value-bind (kind text) (archive-net-behaviour-text element)
+    (let* ((met '())
+           (*archive-net-even-powers* t)
+           (formula (archive-net-expression
+                     text (lambda (name)
+                            (multiple-value-bind (piece what)
+                                (archive-net-behaviour-name element name node)
+                              (pushnew what met)
+                              piece))))
+           (value (archive-net-parsed formula)))
+      (setq met (remove nil met))
+      (when (rest met)
+        (archive-net-fault "~a depends on the time and on the circuit at once"
+                           (net-element-name element)))
+      (values (archive-net-behaviour-type element kind (first met))
+              (archive-net-spelled value)
+              (and (member (first met) '(:voltage :current)) t)))))
+
+(defun archive-net-behaviour-type (element kind met)
+  (cond ((member met '(nil :time)) (if (char= kind #\i) "I" "E"))
+        ((and (char= kind #\i) (eq met :voltage)) "RU")
+        ((and (char= kind #\v) (eq met :current)) "RI")
+        (t (archive-net-fault "~a: a current by its own voltage, or a voltage by its own current, ~
+                               is read" (net-element-name element)))))
+
+(defun archive-net-behaviour-text (element)
+  "Two values: the letter i or v, and the expression behind =."
+  (let* ((text (net-element-text element))
+         (sign (position #\= text))
+         (before (and sign (archive-net-trimmed (subseq text 0 sign))))
+         (letter (and before (plusp (length before)) (char-downcase (char before (1- (length before))))))
+         (after (and sign (archive-net-trimmed (subseq text (1+ sign))))))
+    (unless (and letter (find letter "iv") (plusp (length after)))
+      (archive-net-fault "~a: expected I = expression or V = expression" (net-element-name element)))
+    (values letter (substitute-if #\Space (lambda (c) (find c "{}'")) after))))
+
+(defun archive-net-behaviour-name (element name node)
+  "Two values: the text of NAME in a formula of ELEMENT, and what it is: :voltage, :current, :time,
+or nil for a parameter."
+  (cond ((equal name "time") (values "t" :time))
+        ((stringp name)
+         (values (archive-net-parameter name (net-place-scope (net-element-place element))) nil))
+        ((string= (first name) "v")
+         (values (archive-net-own-voltage element (second name) node) :voltage))
+        ((string= (first name) "i")
+         (unless (string-equal (archive-net-trimmed (second name))
+                               (first (archive-net-fields (net-element-text element))))
+           (archive-net-fault "~a depends on the current of ~a, another branch"
+                              (net-element-name element) (archive-shown (second name))))
+         (values "i" :current))
+        (t (archive-net-fault "the function ~a is not read" (archive-shown (first name))))))
+
+(defun archive-net-own-voltage (element inside node)
+  "u or -u for v(a,b) or v(b,a), v(a) where b is 0."
+  (let ((named (mapcar node (archive-net-fields inside)))
+        (own (mapcar node (subseq (net-element-fields element) 0 2))))
+    (when (= (length named) 1) (setq named (append named '("0"))))
+    (cond ((equal named own) "u")
+          ((equal named (reverse own)) "(-u)")
+          (t (archive-net-fault "~a depends on v(~a), which is not its own voltage"
+                                (net-element-name element) (archive-shown inside))))))

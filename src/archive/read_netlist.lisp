@@ -1,0 +1,96 @@
+;;; SPDX-License-Identifier: GPL-2.0-or-later
+;;; ReadNetlist: a SPICE netlist becomes an archive of kind circuit. Nothing of it is evaluated: its
+;;; lines are taken apart here, its expressions go through the archive's parser, and the text that
+;;; comes of it is checked as any archive. What is not understood is an error with its line.
+
+(in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "archive/bytes" "archive/disk" "archive/netlist_elements" "archive/netlist_lines"
+                "archive/netlist_parts" "archive/open" "archive/store" "archive/tokens"))
+
+(defun $archive_read_netlist (netlist archive replace)
+  "Reads the file NETLIST and writes ARCHIVE, whose name is returned."
+  (dolist (name (list netlist archive))
+    (unless (stringp name)
+      (core-error "the arguments are the names of two files, a netlist and an archive; found ~a"
+                  (core-words (list name)))))
+  (when (and (not replace) (archive-exists-p archive))
+    (core-error "~a exists already; give replace = true to write over it" archive))
+  (let ((text (archive-net-archive-text netlist)))
+    (archive-write-new archive text)))
+
+(defun archive-net-archive-text (file)
+  "The text of the archive that the netlist FILE becomes."
+  (let* ((*archive-net-file* (archive-file-name file)) (*archive-net-line* 1)
+         (sheet (archive-net-sheet (archive-net-read (archive-net-file-text file))))
+         (text (archive-net-sheet-text sheet)))
+    (multiple-value-bind (archive trouble)
+        (let ((*core-function* nil) (*core-warnings* (list "")))
+          (core-caught (lambda () (archive-of-text "the archive" text))))
+      (declare (ignore archive))
+      (when trouble (core-error "~a gives no archive: ~a" file trouble)))
+    (archive-net-say-ignored (netlist-ignored (net-sheet-netlist sheet)))
+    text))
+
+(defun archive-net-file-text (file)
+  (let ((bytes (archive-file-bytes file)))
+    (when (zerop (length bytes)) (core-error "~a is empty" file))
+    (archive-text-of-bytes bytes file)))
+
+(defun archive-net-say-ignored (commands)
+  (when commands
+    (core-warn "left aside: ~{~a~^, ~}; they say nothing of the circuit itself"
+               (reverse commands))))
+
+;;; The text
+
+(defun archive-net-sheet-text (sheet)
+  (unless (net-sheet-branches sheet) (core-error "~a has no elements" *archive-net-file*))
+  (let ((starts (archive-net-starts sheet)) (laws (reverse (net-sheet-laws sheet))))
+    (format nil "dynarch = 1~%kind = circuit~%title = ~s~%~%[system]~%~@[~a~]~@[~a~]~@[~a~]~@[~a~]~
+                 ~@[~a~]~%[branches]~%~{~a~%~}~@[~a~]"
+            (archive-net-title sheet)
+            (archive-net-key "functions" (mapcar (lambda (law)
+                                                   (subseq law 0 (position #\( law))) laws))
+            (archive-net-key "laws" laws)
+            (archive-net-key "nodes" (loop for (node . whole) in (reverse (net-sheet-renamed sheet))
+                                           collect (format nil "~a = ~s" node whole)))
+            (archive-net-key "start" (loop for (state . value) in starts
+                                           collect (format nil "~a = ~a" state value)))
+            (let ((span (netlist-span (net-sheet-netlist sheet))))
+              (and span (format nil "time = [~a, ~a]~%" (or (third span) "0") (second span))))
+            (reverse (net-sheet-branches sheet))
+            (let ((rows (reverse (net-sheet-couplings sheet))))
+              (and rows (format nil "~%[couplings]~%~{~a~%~}" rows))))))
+
+(defun archive-net-title (sheet)
+  "The title without what a string cannot hold."
+  (substitute-if #\Space (lambda (c) (or (find c "\"\\") (< (char-code c) 32)))
+                 (or (netlist-title (net-sheet-netlist sheet)) "")))
+
+(defun archive-net-key (key items)
+  "key = [item,~%  item, ..], or nil where there is none."
+  (and items (format nil "~a = [~{~a~^,~%  ~}]~%" key items)))
+
+;;; The start
+
+(defun archive-net-starts (sheet)
+  "(state . value) ..: from IC, then from .ic; with uic 0 for the other states."
+  (let* ((netlist (net-sheet-netlist sheet)) (given (reverse (net-sheet-starts sheet))))
+    (when (and given (not (netlist-from-zero netlist)))
+      (core-warn "IC counts from uic in .tran on; the start is taken as it is given"))
+    (loop for (type state tail head) in (reverse (net-sheet-stores sheet))
+          for value = (or (cdr (assoc state given :test #'string=))
+                          (and (string= type "C") (archive-net-initial-voltage netlist tail head))
+                          (and (netlist-from-zero netlist) "0"))
+          when value collect (cons state value))))
+
+(defun archive-net-initial-voltage (netlist tail head)
+  "The text of v(tail) - v(head) where .ic gives one of them and the other, or that is node 0."
+  (flet ((potential (node)
+           (if (string= node "0") "0" (third (find node (netlist-initial netlist)
+                                                   :key #'second :test #'string=)))))
+    (let ((a (potential tail)) (b (potential head)))
+      (and a b (or (string/= a "0") (string/= b "0"))
+           (archive-net-spelled (archive-net-parsed (format nil "~a - (~a)" a b)))))))
