@@ -126,7 +126,9 @@
 ;;; The proof
 
 (defun algebra-zero-test (e)
-  (case (or (and (algebra-constant-p e) (algebra-constant-verdict e)) (algebra-remainder-test e))
+  (case (or (and (algebra-with-real-root-p e) (eq 'zero (algebra-remainder-test e)) 'zero)
+            (and (algebra-constant-p e) (algebra-constant-verdict e))
+            (algebra-remainder-test e))
     ((0 zero) t)
     ((1 -1 not-zero) nil)
     (t (if (and (not (algebra-constant-p e)) (algebra-nonzero-somewhere-p e)) nil '$unknown))))
