@@ -117,7 +117,7 @@ between each a and b, neither of which is a root; b - a is at most SHARE of the 
                    (algebra-primitive (algebra-product-of-lists lists)))))
       (cons '(mlist simp)
             (loop for (a . b) in (algebra-bounds-apart
-                                  chain (algebra-apart chain (algebra-isolated chain))
+                                  chain (algebra-apart chain (algebra-intervals-of-roots chain))
                                   (* share (- high low)))
                   when (< low a b high)
                     collect (list '(mlist simp) (algebra-maxima-rational a)
