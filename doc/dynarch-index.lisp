@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 3911130069 117826
+;;; Made by tools/doc; checksum of doc/*.texi: 1180888412 117831
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -60,15 +60,15 @@
 ("LyapunovTest" . ("dynarch.info" 88395 2812 "Definitions for Analysis"))
 ("SecondVariation" . ("dynarch.info" 91208 976 "Definitions for Analysis"))
 ("RouthLyapunov" . ("dynarch.info" 92185 2117 "Definitions for Analysis"))
-("EliminateMultipliers" . ("dynarch.info" 94303 1736 "Definitions for Analysis"))
-("LinearIntegrals" . ("dynarch.info" 96040 654 "Definitions for Analysis"))
-("QuadraticIntegrals" . ("dynarch.info" 96695 702 "Definitions for Analysis"))
-("PolynomialIntegrals" . ("dynarch.info" 97398 2023 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 99700 6393 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 106094 3906 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 110001 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 111964 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 116682 3304 "Definitions for Numerics"))
+("EliminateMultipliers" . ("dynarch.info" 94303 1741 "Definitions for Analysis"))
+("LinearIntegrals" . ("dynarch.info" 96045 654 "Definitions for Analysis"))
+("QuadraticIntegrals" . ("dynarch.info" 96700 702 "Definitions for Analysis"))
+("PolynomialIntegrals" . ("dynarch.info" 97403 2023 "Definitions for Analysis"))
+("Simulate" . ("dynarch.info" 99705 6393 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 106099 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 110006 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 111969 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 116687 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -77,7 +77,7 @@
 ("Definitions for velocities" . ("dynarch.info" 6728 2005))
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 20521))
-("Definitions for Analysis" . ("dynarch.info" 60176 39245))
-("Definitions for Numerics" . ("dynarch.info" 99556 20430))
+("Definitions for Analysis" . ("dynarch.info" 60176 39250))
+("Definitions for Numerics" . ("dynarch.info" 99561 20430))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))
