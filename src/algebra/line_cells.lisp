@@ -24,7 +24,7 @@ multiple or common roots."
   "((x . 0) (x . k) (x . 0) ..)"
   (let* ((chains (mapcar #'algebra-sturm-chain polynomials))
          (chain (algebra-sturm-chain (algebra-product-of-lists polynomials)))
-         (roots (algebra-apart chain (algebra-isolated chain))))
+         (roots (algebra-apart chain (algebra-intervals-of-roots chain))))
     (if (null roots)
         (list (cons 0 0))
         (append (list (cons (algebra-simple-below (caar roots)) 0))
@@ -49,7 +49,7 @@ multiple or common roots."
 
 ;;; Intervals (low . high), low < root <= high
 
-(defun algebra-isolated (chain)
+(defun algebra-intervals-of-roots (chain)
   "One for each root, in order."
   (let* ((p (car chain))
          (bound (if (cdr p)

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/evaluate"))
+  (core-require "algebra/normal"))
 
 (defparameter *analysis-qepcad-seconds* 20 "What the program may take, its own clock.")
 
