@@ -203,6 +203,10 @@
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
 
+(core-rule-given "integrals" "Stability" '("lagrangian") "analysis/phase_flow"
+  "analysis_stability_lagrangian_known"
+  "motion" "Lagrangian" "actions" *analysis-laws* "integrals")
+
 ;;; Lyapunov's second method
 
 (core-public "LyapunovTest"
