@@ -205,6 +205,9 @@
       do (core-rule-given given "Stability" kinds "analysis/stability_by_form"
            "analysis_stability_hamilton" "hamilton_motion" "Hamiltonian" "actions"
            *analysis-laws*))
+(core-rule-given "integrals" "Stability" '("lagrangian") "analysis/phase_flow"
+  "analysis_stability_lagrangian_known"
+  "motion" "Lagrangian" "actions" *analysis-laws* "integrals")
 
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
