@@ -57,7 +57,8 @@
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
-(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "circuit"
+  "network")
 
 (core-rule "PortHamiltonian" '("circuit") "circuits/ports"
   "circuits_port_hamiltonian" "circuit")
