@@ -61,11 +61,10 @@
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
-(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed"
-  "circuit" "network")
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "circuit"
+  "network")
 
-(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian"
-  "circuit" "network" "tableau")
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian" "circuit")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
