@@ -5,42 +5,7 @@
 
 (in-package :maxima)
 
-(defparameter *analysis-states* (core-kinds-giving "state_equations")
-  "Kinds whose equations are of first order.")
-(defparameter *analysis-motions*
-  (remove-if (lambda (kind) (member kind *analysis-states* :test #'string=))
-             (core-kinds-giving "Lagrangian"))
-  "Kinds whose equations are of second order.")
-(defparameter *analysis-bodiless* (remove "mechanical" *analysis-motions* :test #'string=)
-  "Those without bodies.")
-(defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
-(defparameter *analysis-none* '((mlist simp)))
-(defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
-
-(defparameter *analysis-linear-options* '("where" "unknowns" "function" "cyclic")
-  "Options of the first approximation and of what is computed from it.")
-(defparameter *analysis-where* (list "where" *analysis-none*))
-(defparameter *analysis-laws* (list "laws" *analysis-none*))
-(defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
-(defparameter *analysis-variables* (list "variables" *analysis-none*))
-
-(defparameter *analysis-integrals* (list "integrals" *analysis-none*))
-
-(defparameter *analysis-functions* (list "functions_derived" *analysis-none*)
-  "What equations are derivatives of.")
-
-;;; Arguments. K is a function, and a matrix where forces are given by theirs.
-
-(core-argument :formula "K" "polynomial" "V")
-(core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
-(core-argument :variables "variables")
-(core-argument :variable "lambda" "u")
-(core-argument :solution "solution")
-(core-argument :rates "equations")
-(core-argument :integrals "integrals")
-(core-argument :vanishing "within" "manifold")
-
-(core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
+(core-require "analysis/register_words" "analysis/register_integrals")
 
 ;;; Stationary sets
 
@@ -143,8 +108,9 @@
   "analysis_function_alone" "hamiltonian")
 (core-rule "functions_derived" '("poisson") "analysis/jumps" "analysis_function_alone"
   "hamiltonian")
-(core-rule "functions_derived" '("circuit") "analysis/jumps" "analysis_function_alone"
-  "MixedPotential")
+(loop for given in '("potential" (:edited "MixedPotential"))
+      do (core-rule-given given "functions_derived" '("circuit") "analysis/jumps"
+           "analysis_function_alone" "MixedPotential"))
 
 ;;; First approximation and criteria
 
@@ -239,14 +205,6 @@
            "analysis_stability_hamilton" "hamilton_motion" "Hamiltonian" "actions"
            *analysis-laws*))
 
-;;; Lyapunov's second method
-
-(core-public "LyapunovTest"
-  :forms '(("equations" "equations" "V" "solution"))
-  :trailing '("V" "solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
-(core-rule "LyapunovTest" *analysis-kinds* "analysis/lyapunov_test" "analysis_lyapunov_test"
-  "motion" "V" *analysis-laws*)
-
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
 (defparameter *analysis-values* (list "values" *analysis-none*))
@@ -264,50 +222,6 @@
            "analysis_rest_points_hamilton"
            "HamiltonEquations" "Hamiltonian" "actions" *analysis-values* *analysis-laws*))
 
-;;; The method of Routh and Lyapunov
-
-(core-public "SecondVariation"
-  :forms '(("function" "K" "variables" "solution" "&optional" "integrals")) :options '("manifold"))
-(core-rule "SecondVariation" '("function") "analysis/variation" "analysis_second_variation"
-  "K" "variables" "solution" (list "integrals" *analysis-none*) (list "manifold" *analysis-none*))
-
-(core-public "RouthLyapunov"
-  :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers" "function")
-  :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
-(core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov_on"
-  "state_equations" "integrals_on_level" "variables" "special_cases_sought"
-  (list "multipliers" *analysis-none*) (list "solution" *analysis-none*))
-(core-rule "integrals_on_level" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_integrals_on_level" "known_integrals" (list "level" *analysis-none*)
-  (list "within" *analysis-none*))
-
-;;; Mechanical systems as equations of the first order with integrals
-
-(core-rule "routh_system" *analysis-motions* "analysis/reduced_system" "analysis_routh_system"
-  "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) "actions"
-  *analysis-laws*)
-(core-rule-later "routh_system_asked" *analysis-motions* "routh_system")
-(loop for name in '("routh_stationary_equations" "routh_stationary_solutions")
-      do (core-rule-later (concatenate 'string name "_asked") *analysis-motions* name))
-(core-rule-later "motion_asked" *analysis-motions* "motion")
-(core-rule-later "Lagrangian_asked" *analysis-motions* "Lagrangian")
-(core-rule-later "reduced_system_asked" *analysis-motions* "reduced_system")
-(core-rule-later "euler_poisson_asked" '("mechanical") "EulerPoisson")
-(core-rule-later "variables_asked" '("mechanical") "variables_in_coordinates")
-(core-rule-same-as "reduced_system" *analysis-bodiless* "routh_system")
-(core-rule-same-as "reduced_system" '("mechanical") "routh_system" :given '("function" $routh))
-(core-rule "carried_system" '("mechanical") "analysis/reduced_system" "analysis_carried_system"
-  "euler_poisson_asked" "variables_asked" *analysis-functions* *analysis-laws* "coordinates")
-(core-rule "reduced_system" '("mechanical") "analysis/reduced_system" "analysis_reduced_system"
-  "carried_system" "routh_system_asked")
-
-(core-rule "RouthLyapunov" *analysis-motions* "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov_motion"
-  "reduced_system" "coordinates" "special_cases_sought" (list "multipliers" *analysis-none*)
-  (list "solution" *analysis-none*))
-
 ;;; Matrices and forms
 
 (core-public "RootCount" :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
@@ -320,13 +234,25 @@
   "polynomial" "u")
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
-                               ("Signature" "analysis_signature")
-                               ("Definite" "analysis_definite_or_undecided"))
+                               ("Signature" "analysis_signature"))
       do (core-public name :forms '(("matrices" "A")))
          (core-rule name :any "analysis/definite" function "A"))
 
+(defparameter *analysis-part* (list "part" *analysis-none*))
+(core-option :truth "squares")
+(core-public "Definite" :forms '(("matrices" "A") ("function" "K" "variables"))
+                        :options '("part" "squares"))
+(core-rule "Definite" '("matrices") "analysis/semidefinite" "analysis_definite_or_undecided"
+  "A" *analysis-part*)
+(core-rule "Definite" '("function") "analysis/definite_function" "analysis_definite_function"
+  "K" "variables" *analysis-part* '("squares" nil))
+
+(core-public "ReduceForms" :forms '(("matrices" "A" "B")))
+(core-rule "ReduceForms" '("matrices") "analysis/reduce_forms" "analysis_reduce_forms" "A" "B")
+
 (defparameter *analysis-pencils* (append *analysis-motions* '("circuit"))
   "Kinds whose first approximation has matrices M, S, W, circuits in charges.")
+
 (core-public "ForceStructure"
   :forms '(("pencil" "M" "S" "W") ("equations" "equations" "solution"))
   :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-pencils*)
@@ -360,22 +286,3 @@
            (rule '("matrices") "" "" "A" "variables")
            (rule '("pencil") "pencil_" "" "M" "S" "W" "variables")
            (rule *analysis-kinds* "" "_near" "FirstApproximation")))
-
-;;; A mixed potential as Lyapunov's function
-
-(core-public "BraytonMoser" :options '("where" "solution") :kinds '("circuit"))
-(core-rule "BraytonMoser" '("circuit") "analysis/brayton_moser" "analysis_brayton_moser"
-  "MixedPotential" "potential_stores" *analysis-where*)
-(core-rule-given "solution" "BraytonMoser" '("circuit") "analysis/brayton_moser_verdict"
-  "analysis_brayton_moser_judged" "MixedPotential" "potential_stores" *analysis-where* "motion")
-
-(core-public "PolynomialIntegrals"
-  :forms '(("equations" "equations" "degree"))
-  :trailing '("degree") :options '("where" "integrals") :kinds *analysis-states*)
-(loop for (kinds integrals) in `((,(remove "poisson" *analysis-states* :test #'string=)
-                                  ,*analysis-integrals*)
-                                 (("poisson") "poisson_integrals"))
-      do (core-rule "PolynomialIntegrals" kinds "analysis/polynomial_integrals"
-           "analysis_polynomial_integrals"
-           "state_equations" *analysis-variables* "degree" integrals
-           (list "level" *analysis-none*) "special_cases"))

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/coefficients" "circuits/elements" "circuits/graph" "circuits/tableau" "circuits/tableau_equations"
+  (core-require "circuits/coefficients" "circuits/elements" "circuits/graph"
+                "circuits/tableau" "circuits/tableau_equations"
                 "circuits/tableau_reduction"))
 
 (defun $circuits_branch_quantities (circuit solution)

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; From the tableau to states that are independent. What is left of its rows when all unknowns are
 ;;; gone ties states and sources: such a row gives one state, the latest, by the others, and its
-;;; rate by theirs; rows that lose their rates by this tie further states. Each step takes one state,
-;;; so the steps end. The product of all pivots is the leading coefficient of the circuit's
+;;; rate by theirs; rows that lose their rates by this tie further states. Each step takes one
+;;; state, so the steps end. The product of all pivots is the leading coefficient of the circuit's
 ;;; determinant as a polynomial in s: where it vanishes the order is lower.
 ;;; See circuits-solution-of first.
 
