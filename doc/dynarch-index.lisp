@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2294632228 96888
+;;; Made by tools/doc; checksum of doc/*.texi: 3476041973 102078
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -47,16 +47,18 @@
 ("Definite" . ("dynarch.info" 65764 855 "Definitions for Analysis"))
 ("ForceStructure" . ("dynarch.info" 66620 995 "Definitions for Analysis"))
 ("KelvinChetaev" . ("dynarch.info" 67616 2354 "Definitions for Analysis"))
-("Stability" . ("dynarch.info" 69971 3245 "Definitions for Analysis"))
-("SecondVariation" . ("dynarch.info" 73217 976 "Definitions for Analysis"))
-("RouthLyapunov" . ("dynarch.info" 74194 2117 "Definitions for Analysis"))
-("LinearIntegrals" . ("dynarch.info" 76312 654 "Definitions for Analysis"))
-("QuadraticIntegrals" . ("dynarch.info" 76967 702 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 77948 6393 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 84342 3906 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 88249 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 90212 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 94930 3304 "Definitions for Numerics"))
+("Stability" . ("dynarch.info" 69971 3916 "Definitions for Analysis"))
+("LyapunovTest" . ("dynarch.info" 73888 2812 "Definitions for Analysis"))
+("SecondVariation" . ("dynarch.info" 76701 976 "Definitions for Analysis"))
+("RouthLyapunov" . ("dynarch.info" 77678 2117 "Definitions for Analysis"))
+("LinearIntegrals" . ("dynarch.info" 79796 654 "Definitions for Analysis"))
+("QuadraticIntegrals" . ("dynarch.info" 80451 702 "Definitions for Analysis"))
+("PolynomialIntegrals" . ("dynarch.info" 81154 2023 "Definitions for Analysis"))
+("Simulate" . ("dynarch.info" 83456 6393 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 89850 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 93757 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 95720 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 100438 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -65,7 +67,7 @@
 ("Definitions for velocities" . ("dynarch.info" 6728 2005))
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 11489))
-("Definitions for Analysis" . ("dynarch.info" 51144 26525))
-("Definitions for Numerics" . ("dynarch.info" 77804 20430))
+("Definitions for Analysis" . ("dynarch.info" 51144 32033))
+("Definitions for Numerics" . ("dynarch.info" 83312 20430))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

@@ -12,10 +12,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/constant_sign" "algebra/evaluate" "algebra/interval"
-                "algebra/kernels" "algebra/modular" "algebra/normal" "algebra/noun_values"
-                "algebra/nouns" "algebra/random_numbers" "algebra/readable" "algebra/relations"
-                "algebra/root_kernels" "algebra/scan"))
+  (core-require "algebra/constant_sign" "algebra/evaluate" "algebra/interval" "algebra/kernels"
+                "algebra/modular" "algebra/normal" "algebra/noun_values" "algebra/nouns"
+                "algebra/random_numbers" "algebra/real_roots"
+                "algebra/relations" "algebra/root_kernels" "algebra/scan" "algebra/size"))
 
 ;;; Does a reduced polynomial vanish?  Kernels are independent (symbols, open functions, angles) or
 ;;; constants; as a polynomial in the former it vanishes with its coefficients, which the sign of a

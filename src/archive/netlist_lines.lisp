@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/bytes" "archive/tokens"))
+  (core-require))
 
 (defvar *archive-net-file* "the netlist" "The file that is read, for messages.")
 (defvar *archive-net-line* 1 "The number of the line that is read, for messages.")

@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/netlist_lines" "archive/netlist_values" "core/sizes"))
+  (core-require "archive/netlist_lines" "archive/netlist_values" "archive/tokens" "core/sizes"))
 
 (defstruct (archive-net-place (:conc-name net-place-))
   "Where lines stand: in the whole netlist or in a call of a subcircuit."

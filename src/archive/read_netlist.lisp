@@ -6,8 +6,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/bytes" "archive/disk" "archive/netlist_elements" "archive/netlist_lines"
-                "archive/netlist_parts" "archive/open" "archive/store" "archive/tokens"))
+  (core-require "archive/bytes" "archive/disk" "archive/groups" "archive/netlist_elements"
+                "archive/netlist_lines" "archive/netlist_parts" "archive/netlist_values"
+                "archive/open" "archive/store"))
 
 (defun $archive_read_netlist (netlist archive replace)
   "Reads the file NETLIST and writes ARCHIVE, whose name is returned."
@@ -17,13 +18,12 @@
                   (core-words (list name)))))
   (when (and (not replace) (archive-exists-p archive))
     (core-error "~a exists already; give replace = true to write over it" archive))
-  (let ((text (archive-net-archive-text netlist)))
-    (archive-write-new archive text)))
+  (archive-write-new archive (archive-net-archive-text netlist (archive-net-file-text netlist))))
 
-(defun archive-net-archive-text (file)
-  "The text of the archive that the netlist FILE becomes."
+(defun archive-net-archive-text (file netlist)
+  "The text of the archive that NETLIST, the text of FILE, becomes."
   (let* ((*archive-net-file* (archive-file-name file)) (*archive-net-line* 1)
-         (sheet (archive-net-sheet (archive-net-read (archive-net-file-text file))))
+         (sheet (archive-net-sheet (archive-net-read netlist)))
          (text (archive-net-sheet-text sheet)))
     (multiple-value-bind (archive trouble)
         (let ((*core-function* nil) (*core-warnings* (list "")))

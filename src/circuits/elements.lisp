@@ -30,10 +30,12 @@ weights, [k, w]."
 
 (core-record circuits-circuit
   "Branches; sign 1, passive, or -1, generator; the section of the branches, for messages; laws
-[f(u) = .., ..]. `windings' are those that others determine, `magnetizing' gives their currents,
+[f(u) = .., ..]. `windings' are those that others determine; made ideal, they stand in `ideal', and
+`magnetizing' gives the currents of the inductors that magnetize them,
 `datum' is the node of zero potential, `potential' a given P, else false."
   branches sign section laws
   (couplings '((mlist simp))) (transformers '((mlist simp))) (windings '((mlist simp)))
+  (ideal '((mlist simp)))
   (magnetizing '((mlist simp))) (chosen_tree '((mlist simp))) (datum '$none) (potential nil))
 
 (core-record (circuits-structure circuits-circuit)

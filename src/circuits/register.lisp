@@ -9,6 +9,8 @@
 ;;; its matrices. A circuit whose network is refused is still checked.
 
 (core-middle "circuit" '("circuit") "circuits/circuit" "circuits_read_circuit" "description")
+(core-middle "open_circuit" '("circuit") "circuits/circuit" "circuits_read_open_circuit"
+  "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
 ;;; The sparse tableau, solved for independent states
@@ -21,13 +23,16 @@
 (core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 
-(core-public "PotentialParts" :kinds '("circuit"))
+(core-option :truth "pairs")
+(core-public "PotentialParts" :options '("pairs") :kinds '("circuit"))
 (core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts"
-  "network" "own_parts")
+  "circuit" "network" "own_parts")
+(core-rule-given '("pairs" t) "PotentialParts" '("circuit") "circuits/potential"
+  "circuits_parts_by_pairs" "circuit" "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
 (core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
-  "network" "own_parts")
+  "circuit" "network" "own_parts")
 
 (core-option :truth "solved" "matrices")
 (core-public "StateEquations"
@@ -42,20 +47,43 @@
 (core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
   "MixedPotential" "inductances" "capacitances" '("solved" nil))
 
+;;; What each branch does
+
+(core-public "BranchQuantities" :kinds '("circuit"))
+(core-rule "BranchQuantities" '("circuit") "circuits/branch_quantities"
+  "circuits_branch_quantities" "circuit" "tableau")
+
 (core-public "PotentialRate"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances")) :kinds '("circuit"))
-(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "network"
-  "own_parts" "MixedPotential")
+(core-rule "PotentialRate" '("circuit") "circuits/state" "circuits_system_rate" "circuit"
+  "network" "own_parts" "MixedPotential")
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
-(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed"
+  "circuit" "network")
 
-(core-rule "PortHamiltonian" '("circuit") "circuits/ports"
-  "circuits_port_hamiltonian" "circuit")
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian"
+  "circuit" "network" "tableau")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
+
+;;; Transfer functions; `poles' gives a record with poles and zeros
+
+(core-option :truth "poles")
+(core-argument :formula "output")
+(core-argument :variable "input")
+(core-rule "response" '("circuit") "circuits/transfer" "circuits_transfer_function"
+  "open_circuit" "output" "input")
+(core-rule "driving_point" '("circuit") "circuits/transfer" "circuits_impedance"
+  "open_circuit" "from_node" "to_node")
+(loop for (name quantity . trailing) in '(("TransferFunction" "response" "output" "input")
+                                          ("Impedance" "driving_point" "from_node" "to_node"))
+      do (core-public name :trailing trailing :options '("poles") :kinds '("circuit"))
+         (core-rule-same-as name '("circuit") quantity)
+         (core-rule-given '("poles" t) name '("circuit") "circuits/transfer"
+           "circuits_poles_and_zeros" quantity))
 
 ;;; Rates of a run; where a potential is given, by its equations; Routh's and Hamilton's forms of a
 ;;; linear circuit are those in loop charges
@@ -80,3 +108,15 @@
 (loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
                                 ("forces" "Q"))
       do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
+
+;;; SPICE netlists: written in each call
+
+(core-option :truth "replace")
+(core-rule "netlist_text" '("circuit") "circuits/write_netlist" "circuits_netlist_text" "circuit"
+  '("values" ((mlist simp))) '("where" ((mlist simp))) '("nodes" ((mlist simp)))
+  '("start" ((mlist simp))) '("time" ((mlist simp))))
+(core-public "WriteNetlist"
+  :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
+  :kinds '("circuit"))
+(core-act "WriteNetlist" nil '("circuit") "circuits/write_netlist" "circuits_write_netlist"
+  "netlist_text" "netlist" '("replace" nil))

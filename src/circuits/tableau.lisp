@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/coefficients" "circuits/elements" "circuits/graph"))
+  (core-require "circuits/coefficients" "circuits/elements" "circuits/graph"
+                "circuits/sparse_rows"))
 
 (defstruct circuits-tableau
   circuit              ; as in elements.lisp, coupled windings with k = 1 made ideal
@@ -151,15 +152,27 @@
              (circuits-add-difference tableau row ($circuits_ends branch) 1))
            (sensed-voltage (x) (circuits-add-difference tableau row control x))
            (sensed-current (x)
-             (circuits-add-entry row (circuits-current-column
-                                      tableau (circuits-labelled-branch tableau (cadr control)))
-                                 x)))
+             (circuits-add-current tableau row (circuits-labelled-branch tableau (cadr control))
+                                   x)))
       (ecase (circuits-branch-type branch)
         (|$ev| (own-voltage) (sensed-voltage minus))
         (|$g| (own-current 1) (sensed-voltage minus))
         (|$f| (own-current 1) (sensed-current minus))
         (|$h| (own-voltage) (sensed-current minus))
         (|$o| (sensed-voltage 1))))))
+
+(defun circuits-add-current (tableau row branch factor)
+  "Adds FACTOR times the current of BRANCH as it is described: i_k = i_km - sum w*i_j where windings
+j are ideal and the inductor k magnetizes them."
+  (circuits-add-entry row (circuits-current-column tableau branch) factor)
+  (loop for winding in (cdr (circuits-circuit-ideal (circuits-tableau-circuit tableau)))
+        for weight = ($circuits_entry (circuits-winding-weights winding)
+                                      (circuits-branch-number branch))
+        do (circuits-add-entry
+            row
+            (circuits-current-column
+             tableau (circuits-branch-at tableau (circuits-winding-number winding)))
+            (circuits-times (circuits-negative factor) (circuits-inside weight)))))
 
 (defun circuits-labelled-branch (tableau label)
   (find label (circuits-tableau-branches tableau) :key #'circuits-branch-label))

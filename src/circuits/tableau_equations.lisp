@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/factoring" "algebra/matrices" "algebra/normal" "algebra/size"
+  (core-require "algebra/factoring" "algebra/normal"
                 "circuits/coefficients" "circuits/element_laws" "circuits/elements"
                 "circuits/tableau" "circuits/tableau_reduction"))
 
@@ -143,9 +143,9 @@
                                     (circuits-solution-tableau solution)))))
 
 (defun circuits-laws-put (resolved e)
-  (if resolved (maxima-substitute-all resolved e) e))
+  (if resolved (circuits-names-replaced resolved e) e))
 
-(defun maxima-substitute-all (pairs e)
+(defun circuits-names-replaced (pairs e)
   (resimplify (sublis pairs e :test #'eq)))
 
 (defun circuits-refuse-circle (branches)

@@ -1,16 +1,16 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; From the tableau to states that are independent. What is left of its rows when all unknowns are
 ;;; gone ties states and sources: such a row gives one state, the latest, by the others, and its
-;;; rate by theirs; rows that lose their rates by this tie further states. Each step takes one state,
-;;; so the steps end. The product of all pivots is the leading coefficient of the circuit's
+;;; rate by theirs; rows that lose their rates by this tie further states. Each step takes one
+;;; state, so the steps end. The product of all pivots is the leading coefficient of the circuit's
 ;;; determinant as a polynomial in s: where it vanishes the order is lower.
 ;;; See circuits-solution-of first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/coefficients" "circuits/elements" "circuits/tableau"
-                "circuits/tableau_elimination" "forms/exchange"))
+  (core-require "algebra/size" "circuits/coefficients" "circuits/elements" "circuits/tableau"
+                "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
   tableau
@@ -27,7 +27,9 @@
   (let* ((tableau (circuits-tableau-of circuit))
          (unknowns (circuits-tableau-unknowns tableau))
          (work (circuits-eliminated-rows
-                (mapcar #'circuits-copied-row (circuits-tableau-rows tableau)) unknowns))
+                (loop for row in (circuits-tableau-rows tableau)
+                      collect (circuits-without-idle-sources tableau row))
+                unknowns))
          (solution (make-circuits-solution
                     :tableau tableau :states (circuits-state-numbers tableau)
                     :solved (circuits-solved-unknowns work unknowns)
@@ -39,6 +41,16 @@
                         collect (circuits-rate-row solution k))))
     (when (circuits-solution-free solution) (circuits-find-rates solution))
     solution))
+
+(defun circuits-without-idle-sources (tableau row)
+  "A copy of ROW without sources whose value is 0."
+  (let ((copy (circuits-copied-row row)))
+    (loop for column being the hash-keys of row
+          for (sort k) = (circuits-descriptor tableau column)
+          do (when (and (eq sort :source)
+                        (eql 0 (circuits-branch-value (circuits-branch-at tableau k))))
+               (remhash column copy)))
+    copy))
 
 (defun circuits-state-numbers (tableau)
   (flet ((of-type (type)
@@ -248,9 +260,20 @@ tree keeps independent."
        :test #'string= :from-end t))))
 
 (defun circuits-refuse-undetermined (solution open)
-  (core-error "the branches do not determine ~{~a~^, ~}; look for an amplifier or a controlled ~
-               source without feedback, and for resistors whose values cancel"
-              (circuits-labels-of solution open)))
+  (core-error "the currents and voltages are not determined: ~{~a~^, ~} may be any; look for an ~
+               amplifier or a controlled source without feedback, and for resistors whose values ~
+               cancel"
+              (circuits-labels-of solution (circuits-moved-by solution open))))
+
+(defun circuits-moved-by (solution open)
+  "The currents that depend on the undetermined columns OPEN, else these."
+  (let ((tableau (circuits-solution-tableau solution)) (moved '()))
+    (maphash (lambda (column row)
+               (when (and (eq :current (car (circuits-descriptor tableau column)))
+                          (some (lambda (free) (gethash free row)) open))
+                 (push column moved)))
+             (circuits-solution-solved solution))
+    (if moved (sort (union moved open) #'<) open)))
 
 (defun circuits-refuse-tie (solution tie)
   (let* ((tableau (circuits-solution-tableau solution))
