@@ -189,11 +189,12 @@
   "motion" "hamiltonian" *analysis-integrals* "structure_matrix" *analysis-laws*)
 (core-rule "Stability" '("mechanical") "analysis/stability_of_bodies"
   "analysis_stability_of_bodies"
-  "coordinates" "solution" "special_cases_sought" "motion_asked" "Lagrangian_asked" "actions"
+  "coordinates" "solution" "special_cases_sought" "stability_in_coordinates_asked"
   "reduced_system_asked")
-(core-rule "Stability" *analysis-bodiless* "analysis/stability_by_energy"
+(core-rule "stability_in_coordinates" *analysis-motions* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
+(core-rule-same-as "Stability" *analysis-bodiless* "stability_in_coordinates")
 (core-rule-given '("function" $lagrange) "Stability" '("circuit") "analysis/stability_by_form"
   "analysis_stability_charges" "charge_motion")
 (core-rule-given '("function" $routh) "Stability" *analysis-kinds* "analysis/stability_by_energy"
@@ -204,6 +205,9 @@
       do (core-rule-given given "Stability" kinds "analysis/stability_by_form"
            "analysis_stability_hamilton" "hamilton_motion" "Hamiltonian" "actions"
            *analysis-laws*))
+(core-rule-given "integrals" "Stability" '("lagrangian") "analysis/phase_flow"
+  "analysis_stability_lagrangian_known"
+  "motion" "Lagrangian" "actions" *analysis-laws* "integrals")
 
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
