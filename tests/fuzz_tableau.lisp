@@ -393,13 +393,12 @@ capacitor, a loop of source and capacitor, a cut of source and inductor."
         when (member (fuzz-row-type row) '(:e :i))
           collect (cons (fuzz-row-label row) (fuzz-row-value row))))
 
-(defun fuzz-served-fault (circuit description solution tableau model)
+(defun fuzz-served-fault (solution tableau model)
   "nil, or what is wrong with what is said of a served circuit."
   (let* ((check (mfuncall '$circuits_check model))
          (dependent (fuzz-get check '$dependent))
          (names (fuzz-with-magnetizing (fuzz-states solution) dependent solution))
          (states (cdr ($circuits_tableau_states tableau))))
-    (declare (ignorable description))
     (multiple-value-bind (rates untold) (fuzz-tried (lambda () ($circuits_tableau_rates tableau)))
       (let ((matrices (unless untold (fuzz-tried (lambda ()
                                                    ($circuits_tableau_matrices tableau))))))
@@ -443,9 +442,9 @@ capacitor, a loop of source and capacitor, a cut of source and inductor."
             (t (incf *fuzz-served*)
                (let ((solution (fuzz-solve circuit s (fuzz-inputs circuit))))
                  (and solution
-                      (or (fuzz-served-fault circuit description solution tableau model)
+                      (or (fuzz-served-fault solution tableau model)
                           (fuzz-response-fault circuit model s)
-                          (fuzz-potential-fault model tableau solution)))))))))
+                          (fuzz-potential-fault tableau solution)))))))))
 
 (defun fuzz-response-fault (circuit model s)
   "Transfer functions from the first source to some quantity, and an impedance."
@@ -476,12 +475,11 @@ capacitor, a loop of source and capacitor, a cut of source and inductor."
 (defun fuzz-at-s (e s)
   (algebra-rational-number (maxima-substitute (fuzz-number s) '|$S| e)))
 
-(defun fuzz-potential-fault (model tableau solution)
+(defun fuzz-potential-fault (tableau solution)
   "Where there is a potential and all states are independent: its derivatives are the voltages of
 inductors and minus the currents of capacitors."
   (multiple-value-bind (potential text)
       (fuzz-tried (lambda () ($circuits_symmetric_potential tableau)))
-    (declare (ignore model))
     (unless (or text (circuits-solution-dependents tableau)
                 (fuzz-circuit-couplings (fuzz-solution-circuit solution)))
       (let ((names (fuzz-states solution)) (circuit (fuzz-solution-circuit solution)))

@@ -3,7 +3,7 @@
 ;;; string parts nothing. What parses a row takes a reader on its first token and gives a Maxima
 ;;; list, or label = list.
 ;;;   branches      [label:] node -> node  type  value  [state]
-;;;                 of controlled sources   EV, G  value node node   F, H  value label   O  node node
+;;;                 behind the type  EV, G  value node node   F, H  value label   O  node node
 ;;;   couplings     label label  M  or  label label  k = number
 ;;;   transformers  node -> node : node -> node  ratio value
 

@@ -34,7 +34,8 @@ weights, [k, w]."
 `magnetizing' gives the currents of the inductors that magnetize them,
 `datum' is the node of zero potential, `potential' a given P, else false."
   branches sign section laws
-  (couplings '((mlist simp))) (transformers '((mlist simp))) (windings '((mlist simp))) (ideal '((mlist simp)))
+  (couplings '((mlist simp))) (transformers '((mlist simp))) (windings '((mlist simp)))
+  (ideal '((mlist simp)))
   (magnetizing '((mlist simp))) (chosen_tree '((mlist simp))) (datum '$none) (potential nil))
 
 (core-record (circuits-structure circuits-circuit)

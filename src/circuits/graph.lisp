@@ -29,6 +29,13 @@
     (maphash (lambda (node number) (setf (aref nodes number) node)) table)
     (cons '(mlist simp) (coerce nodes 'list))))
 
+(defun $circuits_lonely_nodes (ends)
+  "Nodes in which exactly one end lies."
+  (let ((counts (make-hash-table :test #'equal)))
+    (dolist (pair (cdr ends)) (dolist (node (cdr pair)) (incf (gethash node counts 0))))
+    (cons '(mlist simp) (remove 1 (cdr ($circuits_nodes ends)) :test-not #'eql
+                                  :key (lambda (node) (gethash node counts))))))
+
 ;; Spanning forest by Kruskal's rule: the branches are offered in order, one that closes a loop is
 ;; refused.
 

@@ -43,6 +43,48 @@
         for label = ($concat type k)
         unless (or (gethash label taken) (gethash label singles)) return label))
 
+;;; Rows without a fault, as most are
+
+(defun $circuits_plain_branch (row)
+  "The branch of [number, label or false, tail, head, type, value(, state)] of an R, L, C, E or I,
+or false where something in it is to be looked at."
+  (destructuring-bind (number label &optional tail head type (value nil given) (state nil named)
+                       &rest more)
+      (cdr row)
+    (flet ((node-p (node) (or (integerp node) (circuits-name-p node))))
+      (and given (null more) (node-p tail) (node-p head) (not (eq tail head))
+           (or (null label) (circuits-name-p label))
+           (if named
+               (and (circuits-name-p state) (member type '(|$l| |$c|)))
+               (member type '(|$r| |$l| |$c| |$e| |$i|)))
+           (make-circuits-branch :label label :tail tail :head head :type type :value value
+                                 :number number :state state :control '((mlist simp)))))))
+
+(defun circuits-name-p (e) (and e (symbolp e) (not (eq e t))))
+
+;;; Branches by label, names in values
+
+(defun $circuits_labelled (branches label)
+  "The branch of that LABEL, or false."
+  (find label (cdr branches) :key #'circuits-branch-label))
+
+(defun $circuits_state_in_value (branches)
+  "[branch, name] where the name of a state stands in the value of that branch, or []."
+  (let ((states (make-hash-table :test #'eq)))
+    (dolist (branch (cdr branches))
+      (when (circuits-branch-state branch)
+        (setf (gethash (circuits-branch-state branch) states) t)))
+    (loop for branch in (cdr branches)
+          for name = (find-if (lambda (name) (gethash name states))
+                              (circuits-names-in (circuits-branch-value branch)))
+          when name return (list '(mlist simp) branch name)
+            finally (return '((mlist simp))))))
+
+(defun circuits-names-in (e)
+  (cond ((symbolp e) (list e))
+        ((atom e) '())
+        (t (mapcan #'circuits-names-in (copy-list (cdr e))))))
+
 (defun $circuits_equal_names (names)
   "[k, l], the places of the first name in NAMES that stands twice, or []; false is no name."
   (let ((places (make-hash-table :test #'eq)))

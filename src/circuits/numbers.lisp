@@ -20,10 +20,6 @@
   (let ((marks (make-array count :initial-element nil)))
     (dolist (number (cdr numbers) marks) (setf (svref marks (1- number)) t))))
 
-(defun $circuits_marks (numbers count)
-  "[true, false, ..]: which of 1, .., COUNT are among NUMBERS."
-  (cons '(mlist simp) (coerce (circuits-marks numbers count) 'list)))
-
 (defun $circuits_complement (numbers count)
   "Those of 1, .., COUNT that are not among NUMBERS."
   (cons '(mlist simp)

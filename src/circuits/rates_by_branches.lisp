@@ -9,9 +9,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "circuits/elements"
-                "circuits/element_laws" "forms/sparse_elimination"))
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes"
+                "algebra/program_record" "circuits/element_laws" "circuits/elements"
+                "forms/sparse_elimination"))
 
 (defstruct circuits-run
   network sign branches ; the branches as a vector, that of number k at k - 1

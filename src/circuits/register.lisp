@@ -9,6 +9,8 @@
 ;;; its matrices. A circuit whose network is refused is still checked.
 
 (core-middle "circuit" '("circuit") "circuits/circuit" "circuits_read_circuit" "description")
+(core-middle "open_circuit" '("circuit") "circuits/circuit" "circuits_read_open_circuit"
+  "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
 ;;; The sparse tableau, solved for independent states
@@ -21,20 +23,24 @@
 (core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 
-(core-public "PotentialParts" :kinds '("circuit"))
+(core-option :truth "pairs")
+(core-public "PotentialParts" :options '("pairs") :kinds '("circuit"))
 (core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts"
   "circuit" "network" "own_parts")
+(core-rule-given '("pairs" t) "PotentialParts" '("circuit") "circuits/potential"
+  "circuits_parts_by_pairs" "circuit" "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
-(core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
+(core-rule "MixedPotential" '("circuit") "circuits/blocks" "circuits_potential_answer"
   "circuit" "network" "own_parts")
 
 (core-option :truth "solved" "matrices")
 (core-public "StateEquations"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
   :options '("solved" "matrices") :kinds '("circuit"))
-(core-rule "StateEquations" '("circuit") "circuits/solved_tableau" "circuits_tableau_answer"
-  "tableau" '("solved" nil) '("matrices" nil))
+(core-middle "state_system" '("circuit") "circuits/blocks" "circuits_state_system" "circuit")
+(core-rule "StateEquations" '("circuit") "circuits/blocks" "circuits_state_answer"
+  "state_system" '("solved" nil) '("matrices" nil))
 (loop for given in '("potential" (:edited "MixedPotential"))
       do (core-rule-given given "StateEquations" '("circuit") "circuits/state"
            "circuits_system_equations" "tableau" "network" "own_parts" "MixedPotential"
@@ -55,10 +61,10 @@
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
-(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "network")
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "circuit"
+  "network")
 
-(core-rule "PortHamiltonian" '("circuit") "circuits/ports"
-  "circuits_port_hamiltonian" "circuit")
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian" "circuit")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
@@ -69,9 +75,9 @@
 (core-argument :formula "output")
 (core-argument :variable "input")
 (core-rule "response" '("circuit") "circuits/transfer" "circuits_transfer_function"
-  "circuit" "output" "input")
+  "open_circuit" "output" "input")
 (core-rule "driving_point" '("circuit") "circuits/transfer" "circuits_impedance"
-  "circuit" "from_node" "to_node")
+  "open_circuit" "from_node" "to_node")
 (loop for (name quantity . trailing) in '(("TransferFunction" "response" "output" "input")
                                           ("Impedance" "driving_point" "from_node" "to_node"))
       do (core-public name :trailing trailing :options '("poles") :kinds '("circuit"))
@@ -102,3 +108,15 @@
 (loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
                                 ("forces" "Q"))
       do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
+
+;;; SPICE netlists: written in each call
+
+(core-option :truth "replace")
+(core-rule "netlist_text" '("circuit") "circuits/write_netlist" "circuits_netlist_text" "circuit"
+  '("values" ((mlist simp))) '("where" ((mlist simp))) '("nodes" ((mlist simp)))
+  '("start" ((mlist simp))) '("time" ((mlist simp))))
+(core-public "WriteNetlist"
+  :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
+  :kinds '("circuit"))
+(core-act "WriteNetlist" nil '("circuit") "circuits/write_netlist" "circuits_write_netlist"
+  "netlist_text" "netlist" '("replace" nil))

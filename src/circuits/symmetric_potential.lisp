@@ -90,7 +90,8 @@
                                 (circuits-branch-at (circuits-solution-tableau solution)
                                                     number))))))
       (core-error "the circuit has no mixed potential: the branches ~a and ~a act on each other ~
-                   asymmetrically, the derivatives of P would be ~a and ~a; StateEquations serves it"
+                   asymmetrically, the derivatives of P would be ~a and ~a; StateEquations ~
+                   serves it"
                   (label k) (label j) (core-words (list (circuits-outside x)))
                   (core-words (list (circuits-outside y)))))))
 

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; From the tableau to states that are independent. What is left of its rows when all unknowns are
 ;;; gone ties states and sources: such a row gives one state, the latest, by the others, and its
-;;; rate by theirs; rows that lose their rates by this tie further states. Each step takes one state,
-;;; so the steps end. The product of all pivots is the leading coefficient of the circuit's
+;;; rate by theirs; rows that lose their rates by this tie further states. Each step takes one
+;;; state, so the steps end. The product of all pivots is the leading coefficient of the circuit's
 ;;; determinant as a polynomial in s: where it vanishes the order is lower.
 ;;; See circuits-solution-of first.
 
@@ -232,7 +232,11 @@ tree keeps independent."
                                 (car (push (list factor) groups)))))
                  (push (mul sign (circuits-given solution column)) (cdr group)))))
     (addn (loop for (factor . terms) in groups
-                append (if (eql factor 1) terms (list (mul factor (addn terms nil)))))
+                append (cond ((eql factor 1) terms)
+                             ((and (algebra-rational-number factor)
+                                   (some #'algebra-rational-number terms))
+                              (mapcar (lambda (term) (mul factor term)) terms))
+                             (t (list (mul factor (addn terms nil))))))
           nil)))
 
 (defun circuits-factor-and-sign (x)

@@ -82,8 +82,10 @@
       (core-error "~a: there is no branch ~a" what (core-words (list label)))))
 
 (defun circuits-output-row (circuit output)
-  "A function of the tableau: the row of OUTPUT, a state, u(label), i(label) or v(node)."
-  (let ((branch (and (symbolp output)
+  "A function of the tableau: the row of OUTPUT, a state, u(label), i(label) or v(node), plain or
+quoted."
+  (let ((output (if (atom output) output (cons (list ($verbify (caar output))) (cdr output))))
+        (branch (and (symbolp output)
                      (find output (cdr (circuits-circuit-branches circuit))
                            :key #'circuits-branch-state))))
     (cond (branch (circuits-quantity-row branch (if (eq (circuits-branch-type branch) '|$c|)
@@ -164,8 +166,8 @@
 ;;; Poles and zeros
 
 (defun $circuits_poles_and_zeros (e)
-  "[function = .., zeros = [[zero, multiplicity], ..], poles = ..]; roots without a closed form stand
-as the equation that they satisfy."
+  "[function = .., zeros = [[zero, multiplicity], ..], poles = ..]; roots without a closed form
+stand as the equation that they satisfy."
   (destructuring-bind (above below) (cdr ($algebra_ratio e))
     (list '(mlist simp)
           (list '(mequal simp) '$function e)

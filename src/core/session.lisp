@@ -270,7 +270,12 @@ Lisp."
 ;;; Orders of names: ordergreat and orderless read a name as another one, which sorts first or last
 
 (defun core-typed-names (e)
-  (cond ((consp e) (cons (core-typed-names (car e)) (core-typed-names (cdr e))))
+  (cond ((consp e)
+         (let* ((copy (list nil)) (end copy))
+           (loop while (consp e)
+                 do (setf (cdr end) (list (core-typed-names (pop e))) end (cdr end)))
+           (setf (cdr end) (core-typed-names e))
+           (cdr copy)))
         ((and (symbolp e) e (char/= (char (symbol-name e) 0) #\$)
               (member e (cdr $aliases)) (get e 'reversealias)))
         (t e)))

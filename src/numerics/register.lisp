@@ -95,3 +95,16 @@
   :numerical t)
 (core-act "PhasePortrait" nil :any "numerics/phase_portrait" "numerics_phase_portrait" "picture"
   "portrait")
+(core-act "StabilityMap" nil :any "numerics/stability_map_plot" "numerics_stability_map" "picture"
+  "StabilityMap" "map_strips")
+
+;;; Transfer functions on the axis s = i*w
+
+(core-rule "frequency_curve" '("circuit") "numerics/frequency" "numerics_frequency_curve"
+  "response" *numerics-values* '("frequencies" nil))
+(loop for (name function) in '(("BodePlot" "numerics_bode_plot")
+                               ("NyquistPlot" "numerics_nyquist_plot"))
+      do (core-public name :trailing '("output" "input")
+           :options '("values" "frequencies" "file" "replace") :kinds '("circuit") :numerical t)
+         (core-act name nil '("circuit") "numerics/frequency_plots" function "picture"
+           "frequency_curve"))
