@@ -11,7 +11,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/evaluate" "algebra/general_form" "algebra/groebner" "algebra/kernels"
-                "algebra/normal" "algebra/readable" "algebra/relations" "algebra/scan"
+                "algebra/normal" "algebra/relations" "algebra/scan"
                 "algebra/matrices" "algebra/size"))
 
 (defparameter *algebra-most-points* 48 "dimension of the quotient ring up to which it is formed")

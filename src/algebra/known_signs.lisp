@@ -144,14 +144,13 @@
                      (t (push factor open))))
       (cond ((not (member others '($pos $neg))))
             ((null open) (algebra-agree others sign))
-            (t (algebra-learn (if (cdr open) (algebra-open-product open) (car open))
-                              (algebra-times-sign others sign)))))))
+            (t (let ((rest (if (cdr open) (algebra-open-product open) (car open))))
+                 (when rest (algebra-learn rest (algebra-times-sign others sign)))))))))
 
 (defun algebra-open-product (factors)
-  "The expanded product of FACTORS, or 1 with nothing to learn where it would be long."
-  (if (< (reduce #'* factors :key #'algebra-size) 2000)
-      ($expand (muln factors nil))
-      1))
+  "The expanded product of FACTORS, or nil, nothing to learn, where it would be long."
+  (when (< (reduce #'* factors :key #'algebra-size) 2000)
+    ($expand (muln factors nil))))
 
 (defun algebra-learn (e sign)
   "E, a name, a kernel or a sum, has SIGN."

@@ -117,23 +117,3 @@ w = s^2/c^2 the sum of a_k*c^(2k) is c^(2m) times that of a_k*(1 + w)^(m-k); 1 -
   (loop for (i coefficient) in (algebra-powers p cosine)
         append (loop for (j inner) in (algebra-powers coefficient sine)
                      collect (list i j inner))))
-
-(defun algebra-powers (p variable)
-  "P as a list of (exponent coefficient) in any of its variables."
-  (cond ((or (atom p) (pointergp variable (car p))) (list (list 0 p)))
-        ((eq (car p) variable)
-         (loop for (exponent coefficient) on (cdr p) by #'cddr
-               collect (list exponent coefficient)))
-        (t (algebra-inner-powers p variable))))
-
-(defun algebra-inner-powers (p variable)
-  "The same where VARIABLE stands below the main variable of P; nothing is multiplied."
-  (let ((powers nil))
-    (loop for (outer part) on (cdr p) by #'cddr
-          do (loop for (exponent coefficient) in (algebra-powers part variable)
-                   for entry = (or (assoc exponent powers)
-                                   (car (push (list exponent) powers)))
-                   do (push outer (cdr entry))
-                      (push coefficient (cdr entry))))
-    (loop for (exponent . terms) in powers
-          collect (list exponent (psimp (car p) (reverse terms))))))

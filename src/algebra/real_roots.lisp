@@ -24,6 +24,11 @@
           (loop for k from 1 to (algebra-real-roots-between p nil nil)
                 collect (simplify `((|$RealRoot|) ((mlist) ,@p) ,k))))))
 
+(defun algebra-with-real-root-p (e)
+  (and (consp e)
+       (or (algebra-real-root-p e)
+           (some #'algebra-with-real-root-p (cdr e)))))
+
 ;;; What Maxima's simplifier makes of it: a number where float or bfloat went through.
 
 (defun algebra-simplified-real-root (e ignored simplified)
@@ -92,32 +97,44 @@
                          before (+ before count)))))
     (list p low high)))
 
-(defun algebra-polynomial-at (p x)
-  (let ((value 0))
-    (dolist (c p value) (setq value (+ (* value x) c)))))
+(defun algebra-scaled-value (p m s)
+  "2^(s*n) times the value at M/2^S of the polynomial P of degree n: whole numbers alone."
+  (let ((value 0) (power 0))
+    (dolist (c p value)
+      (setq value (+ (* value m) (ash c power))
+            power (+ power s)))))
 
 (defun algebra-refined-root (p low high bits)
-  "(low high): of N parts of the interval that is tried where a straight line ends in zero."
-  (let ((parts 4)
-        (width (/ 1 (ash 1 bits)))
-        (of-low (algebra-polynomial-at p low))
-        (of-high (algebra-polynomial-at p high)))
+  "(low high): that of 2^j parts of the interval where a straight line ends in zero, j doubled when
+it was found, else halved."
+  (let* ((s (1- (integer-length (lcm (denominator low) (denominator high)))))
+         (low (* low (ash 1 s)))
+         (high (* high (ash 1 s)))
+         (j 2)
+         (n (1- (length p))))
     (loop
-      (cond ((zerop of-high) (return (list high high)))
-            ((<= (- high low) width) (return (list low high))))
-      (let* ((step (/ (- high low) parts))
-             (k (max 0 (min (1- parts) (floor (* parts of-low) (- of-low of-high)))))
-             (found nil))
-        (dolist (j (list k (1- k) (1+ k)))
-          (when (and (not found) (< -1 j parts))
-            (let* ((a (+ low (* j step)))
-                   (b (+ a step))
-                   (of-a (if (zerop j) of-low (algebra-polynomial-at p a)))
-                   (of-b (if (= j (1- parts)) of-high (algebra-polynomial-at p b))))
-              (when (and (/= 0 of-a) (or (zerop of-b) (minusp (* (signum of-a) (signum of-b)))))
-                (setq found (list a b of-a of-b))))))
-        (if found
-            (setq low (first found) high (second found)
-                  of-low (third found) of-high (fourth found)
-                  parts (* parts parts))
-            (setq parts (max 2 (isqrt parts))))))))
+      (let ((of-low (algebra-scaled-value p low s))
+            (of-high (algebra-scaled-value p high s)))
+        (cond ((zerop of-high) (return (list (/ high (ash 1 s)) (/ high (ash 1 s)))))
+              ((<= (ash (- high low) bits) (ash 1 s))
+               (return (list (/ low (ash 1 s)) (/ high (ash 1 s))))))
+        (let* ((parts (ash 1 j))
+               (k (max 0 (min (1- parts) (floor (ash of-low j) (- of-low of-high)))))
+               (step (- high low))
+               (finer (+ s j))
+               (found nil))
+          (flet ((value (i) (cond ((= i 0) (ash of-low (* n j)))
+                                  ((= i parts) (ash of-high (* n j)))
+                                  (t (algebra-scaled-value p (+ (ash low j) (* i step)) finer)))))
+            (dolist (i (list k (1- k) (1+ k)))
+              (when (and (not found) (< -1 i parts))
+                (let ((of-a (value i)) (of-b (value (1+ i))))
+                  (when (and (/= 0 of-a)
+                             (or (zerop of-b) (/= (signum of-a) (signum of-b))))
+                    (setq found i))))))
+          (if found
+              (setq high (+ (ash low j) (* (1+ found) step))
+                    low (- high step)
+                    s finer
+                    j (* 2 j))
+              (setq j (max 1 (floor j 2)))))))))

@@ -1,20 +1,22 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
 ;;; Polynomials in kernels modulo their relations: s^2 = 1 - c^2 for each angle, kernel^n = radicand
-;;; for each root.  With s below the second degree and each root below its degree the remainder
+;;; for each root, p(kernel) = 0 for RealRoot(p, k).  With s below the second degree and each root below its degree the remainder
 ;;; is unique; it vanishes exactly when the polynomial vanishes (angles; for roots see zero.lisp).
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/quotient"))
+  (core-require "algebra/size" "algebra/kernels" "algebra/quotient" "algebra/real_roots"))
 
 (defun algebra-reduce (p)
   "The remainder of the polynomial P, a quotient (radicands may have denominators)."
   (let ((quotient (cons (algebra-reduce-angles p) 1)))
     (dolist (kernel (reverse (algebra-ring-kernels *algebra-ring*)) quotient)
-      (when (algebra-kernel-degree kernel)
-        (setq quotient (algebra-reduce-root quotient kernel))))))
+      (cond ((algebra-kernel-degree kernel)
+             (setq quotient (algebra-reduce-root quotient kernel)))
+            ((algebra-real-root-p (algebra-kernel-expression kernel))
+             (setq quotient (algebra-reduce-real-root quotient kernel)))))))
 
 (defun algebra-reduce-angles (p)
   (dolist (unit (algebra-ring-units *algebra-ring*) p)
@@ -133,6 +135,33 @@
                                            (algebra-kernel-radicand kernel))))
           (algebra-angles-again (algebra-over-quotient lowered (cons (cdr quotient) 1)))))))
 
+(defun algebra-reduce-real-root (quotient kernel)
+  "The remainder of the numerator of QUOTIENT by the polynomial of which KERNEL is a root."
+  (let* ((relation (cdadr (algebra-kernel-expression kernel)))
+         (degree (1- (length relation)))
+         (variable (algebra-kernel-variable kernel))
+         (powers (algebra-powers (car quotient) variable))
+         (highest (reduce #'max powers :key #'car)))
+    (if (< highest degree)
+        quotient
+        (let ((rest (make-array (1+ highest) :initial-element 0))
+              (scale (expt (car relation) (1+ (- highest degree)))))
+          (loop for (exponent coefficient) in powers
+                do (setf (aref rest exponent) (ptimes scale coefficient)))
+          (loop for k from highest downto degree
+                for factor = (pquotient (aref rest k) (car relation))
+                do (loop for a in relation
+                         for j downfrom k
+                         do (setf (aref rest j)
+                                  (pdifference (aref rest j) (ptimes a factor)))))
+          (algebra-over-quotient
+           (cons (algebra-polynomial-sum
+                  (loop for k below degree
+                        collect (ptimes (aref rest k)
+                                        (if (zerop k) 1 (list variable k 1)))))
+                 1)
+           (cons (ptimes scale (cdr quotient)) 1))))))
+
 (defun algebra-angles-again (quotient)
   (let ((reduced (algebra-reduce-angles (car quotient))))
     (if (eq reduced (car quotient)) quotient (algebra-quotient-of reduced (cdr quotient)))))
@@ -154,6 +183,26 @@
                   collect (algebra-times (cons (list (car p) exponent 1) 1)
                                          (algebra-lower-root coefficient variable degree
                                                              radicand)))))))
+
+(defun algebra-powers (p variable)
+  "P as a list of (exponent coefficient) in any of its variables."
+  (cond ((or (atom p) (pointergp variable (car p))) (list (list 0 p)))
+        ((eq (car p) variable)
+         (loop for (exponent coefficient) on (cdr p) by #'cddr
+               collect (list exponent coefficient)))
+        (t (algebra-inner-powers p variable))))
+
+(defun algebra-inner-powers (p variable)
+  "The same where VARIABLE stands below the main variable of P; nothing is multiplied."
+  (let ((powers nil))
+    (loop for (outer part) on (cdr p) by #'cddr
+          do (loop for (exponent coefficient) in (algebra-powers part variable)
+                   for entry = (or (assoc exponent powers)
+                                   (car (push (list exponent) powers)))
+                   do (push outer (cdr entry))
+                      (push coefficient (cdr entry))))
+    (loop for (exponent . terms) in powers
+          collect (list exponent (psimp (car p) (reverse terms))))))
 
 (defun algebra-occurs-p (variable p)
   (cond ((atom p) nil)

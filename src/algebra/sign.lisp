@@ -10,7 +10,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/nouns" "algebra/zero" "algebra/known_signs"
+                "algebra/sign_by_proof"
                 "algebra/sign_by_bounds" "algebra/packed_polynomials" "algebra/sign_by_parts"))
+
+(defvar *algebra-discriminants-left* 2 "How deep discriminants of discriminants may be asked.")
 
 (defun $algebra_sign (e)
   "pos, neg, zero, pz (>= 0), nz (<= 0), pn (not zero) or unknown."
@@ -30,6 +33,14 @@
     (($pos $neg $pn) t)
     ($zero nil)
     (t '$unknown)))
+
+(defmspec $algebra_by_short_proofs (form)
+  ;; algebra_by_short_proofs(e): the value of e, where proofs as sums of products stay short; what
+  ;; has no such one is unknown. Nothing of what is
+  ;; found so is kept.
+  (let ((*algebra-certificate-size* 200) (*algebra-knowledges* '())
+        (*algebra-discriminants-left* 1))
+    (meval (second form))))
 
 (defun $algebra_contradictory (conditions)
   "Whether CONDITIONS, a list, are proved to contradict the facts or each other."
@@ -110,8 +121,6 @@
       (when (member answer '($pos $neg $zero)) (return answer)))))
 
 ;;; A square and what it lacks
-
-(defvar *algebra-discriminants-left* 2 "How deep discriminants of discriminants may be asked.")
 
 (defun algebra-discriminant-sign (e)
   "Of a*y^2 + b*y + c with b^2 - 4*a*c < 0 or <= 0, y a power of a name or kernel."

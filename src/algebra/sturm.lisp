@@ -52,6 +52,22 @@ rational, minf or inf."
           (t (append (algebra-places-between chain low middle)
                      (algebra-places-between chain middle high))))))
 
+(defun $algebra_real_root_intervals (coefficients width)
+  "[[low, high], ..] in order, each shorter than WIDTH, with one real root in low < x <= high."
+  (let* ((p (algebra-primitive (mapcar #'algebra-rational-number (cdr coefficients))))
+         (bound (1+ (ceiling (reduce #'max (mapcar #'abs (cdr p))) (abs (car p)))))
+         (width (algebra-rational-number width)))
+    (cons '(mlist simp)
+          (loop for interval in (algebra-isolated (algebra-sturm-chain p) (- bound) bound width)
+                collect (cons '(mlist simp) (mapcar #'algebra-maxima-rational interval))))))
+
+(defun algebra-isolated (chain low high width)
+  (let ((count (algebra-chain-roots chain low high)) (middle (/ (+ low high) 2)))
+    (cond ((zerop count) '())
+          ((and (= count 1) (< (- high low) width)) (list (list low high)))
+          (t (append (algebra-isolated chain low middle width)
+                     (algebra-isolated chain middle high width))))))
+
 (defun algebra-sturm-chain (p)
   "The chain of P without its multiple roots: at these all of it would vanish."
   (let* ((chain (algebra-remainders p (algebra-slope-numbers p)))

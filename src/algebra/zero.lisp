@@ -12,10 +12,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/constant_sign" "algebra/evaluate" "algebra/interval"
-                "algebra/kernels" "algebra/modular" "algebra/normal" "algebra/noun_values"
-                "algebra/nouns" "algebra/random_numbers" "algebra/readable" "algebra/relations"
-                "algebra/root_kernels" "algebra/scan"))
+  (core-require "algebra/constant_sign" "algebra/evaluate" "algebra/interval" "algebra/kernels"
+                "algebra/modular" "algebra/normal" "algebra/noun_values" "algebra/nouns"
+                "algebra/random_numbers" "algebra/real_roots"
+                "algebra/relations" "algebra/root_kernels" "algebra/scan" "algebra/size"))
 
 ;;; Does a reduced polynomial vanish?  Kernels are independent (symbols, open functions, angles) or
 ;;; constants; as a polynomial in the former it vanishes with its coefficients, which the sign of a
@@ -126,7 +126,9 @@
 ;;; The proof
 
 (defun algebra-zero-test (e)
-  (case (or (and (algebra-constant-p e) (algebra-constant-verdict e)) (algebra-remainder-test e))
+  (case (or (and (algebra-with-real-root-p e) (eq 'zero (algebra-remainder-test e)) 'zero)
+            (and (algebra-constant-p e) (algebra-constant-verdict e))
+            (algebra-remainder-test e))
     ((0 zero) t)
     ((1 -1 not-zero) nil)
     (t (if (and (not (algebra-constant-p e)) (algebra-nonzero-somewhere-p e)) nil '$unknown))))

@@ -19,8 +19,8 @@ parameters that the solution names, and `where' is put in after them. Coordinate
 
 (core-record analysis-found
   "What solving gives: solutions [x = .., ..], sentences on what is left, factors taken as
-not zero."
-  solutions left taken)
+not zero, components that were too long to be solved: [[[e = 0, ..], dimension], ..]."
+  solutions left taken (components '((mlist simp))))
 
 (core-record analysis-sorted
   "Stationary sets [x = .., mu = ..] by what they are for fixed multipliers, see stationary.mac."

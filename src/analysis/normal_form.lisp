@@ -10,8 +10,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/common_roots" "algebra/evaluate" "algebra/general_form" "algebra/kernels"
-                "algebra/normal" "algebra/quotient" "algebra/relations" "algebra/scan"))
+  (core-require "algebra/common_roots" "algebra/evaluate" "algebra/general_form"
+                "algebra/groebner" "algebra/kernels" "algebra/normal" "algebra/quotient"
+                "algebra/relations" "algebra/scan" "algebra/size"))
 
 (defstruct (analysis-frequencies (:conc-name analysis-frequencies-))
   variables                                   ; the polynomials' symbols of lambda1, lambda2
@@ -72,8 +73,17 @@ lambda1^2 = s. FIRST and SECOND are a, b or s."
       (algebra-times (algebra-reduce (car quotient)) (cons 1 (cdr quotient)))
       quotient))
 
+(defparameter *analysis-normal-form-work* 20000000
+  "Products of single terms that a normal form may cost: some twenty seconds.")
+
 (defun analysis-product (x y)
-  (if (or (pzerop (car x)) (pzerop (car y))) (cons 0 1) (analysis-reduced (algebra-times x y))))
+  (if (or (pzerop (car x)) (pzerop (car y)))
+      (cons 0 1)
+      (progn
+        (decf *algebra-work-left* (* (algebra-monomials (car x)) (algebra-monomials (car y))))
+        (when (minusp *algebra-work-left*)
+          (core-error "the normal form is too long with these parameters; give some numbers"))
+        (analysis-reduced (algebra-times x y)))))
 
 ;;; Polynomials in eta_1, eta_-1, eta_2, eta_-2: tables exponents -> quotient
 
@@ -181,7 +191,8 @@ P = (m . x), Q = (n . y)."
                                            :first (value (first relation))
                                            :second (value (second relation))
                                            :ratio (third relation))))
-          (funcall function (lambda (e) (analysis-reduced (value e)))))))))
+          (let ((*algebra-work-left* (core-sized *analysis-normal-form-work*)))
+            (funcall function (lambda (e) (analysis-reduced (value e))))))))))
 
 (defun $analysis_normal_coefficients (terms modes inverses lambdas relation wanted)
   "Coefficients of the WANTED monomials of the normal form. TERMS [coefficient, exponents] of H3 and

@@ -5,51 +5,25 @@
 
 (in-package :maxima)
 
-(defparameter *analysis-states* (core-kinds-giving "state_equations")
-  "Kinds whose equations are of first order.")
-(defparameter *analysis-motions*
-  (remove-if (lambda (kind) (member kind *analysis-states* :test #'string=))
-             (core-kinds-giving "Lagrangian"))
-  "Kinds whose equations are of second order.")
-(defparameter *analysis-bodiless* (remove "mechanical" *analysis-motions* :test #'string=)
-  "Those without bodies.")
-(defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
-(defparameter *analysis-none* '((mlist simp)))
-(defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
-
-(defparameter *analysis-linear-options* '("where" "unknowns" "function" "cyclic")
-  "Options of the first approximation and of what is computed from it.")
-(defparameter *analysis-where* (list "where" *analysis-none*))
-(defparameter *analysis-laws* (list "laws" *analysis-none*))
-(defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
-(defparameter *analysis-variables* (list "variables" *analysis-none*))
-
-(defparameter *analysis-integrals* (list "integrals" *analysis-none*))
-
-(defparameter *analysis-functions* (list "functions_derived" *analysis-none*)
-  "What equations are derivatives of.")
-
-;;; Arguments. K is a function, and a matrix where forces are given by theirs.
-
-(core-argument :formula "K" "polynomial" "V")
-(core-argument :square "A" "M" "S" "W" "D" "G" "P" '("K" "forces"))
-(core-argument :variables "variables")
-(core-argument :variable "lambda" "u")
-(core-argument :solution "solution")
-(core-argument :rates "equations")
-(core-argument :integrals "integrals")
-(core-argument :vanishing "within" "manifold")
-
-(core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
+(core-require "analysis/register_words" "analysis/register_integrals")
 
 ;;; Stationary sets
+
+(loop for (reduced other function)
+        in '(("reduced_function" "RouthFunction" "analysis_reduced_function")
+             ("reduced_coordinates" "remaining_coordinates" "analysis_reduced_coordinates")
+             ("reduced_integrals" "cyclic_integrals" "analysis_reduced_integrals"))
+      for asked = (concatenate 'string "routh_" other "_asked")
+      do (core-rule-later asked *analysis-motions* other)
+         (core-rule reduced *analysis-motions* "analysis/reduced_function" function
+           "Lagrangian" "coordinates" '("cyclic" $auto) "actions" asked))
 
 (core-public "StationaryEquations" :forms '(("function" "K" "variables"))
   :options '("where" "multipliers" "function") :kinds *analysis-motions*)
 (core-rule "StationaryEquations" '("function") "analysis/stationary"
   "analysis_stationary_equations" "K" "variables")
 (core-rule "routh_stationary_equations" *analysis-motions* "analysis/stationary"
-  "analysis_stationary_system" "RouthFunction" "remaining_coordinates" "actions")
+  "analysis_stationary_system" "reduced_function" "reduced_coordinates" "actions")
 (core-rule-same-as "StationaryEquations" *analysis-bodiless* "routh_stationary_equations")
 (core-rule-same-as "StationaryEquations" '("mechanical") "routh_stationary_equations"
   :given '("function" $routh))
@@ -64,7 +38,7 @@
 (core-rule "StationarySolutions" '("function") "analysis/stationary" "analysis_stationary_solutions"
   "K" "variables" *analysis-unknowns* *analysis-where*)
 (core-rule "routh_stationary_solutions" *analysis-motions* "analysis/stationary"
-  "analysis_system_motions" "RouthFunction" "remaining_coordinates" "actions" *analysis-unknowns*
+  "analysis_system_motions" "reduced_function" "reduced_coordinates" "actions" *analysis-unknowns*
   *analysis-where*)
 (core-rule-same-as "StationarySolutions" *analysis-bodiless* "routh_stationary_solutions")
 (core-rule-same-as "StationarySolutions" '("mechanical") "routh_stationary_solutions"
@@ -78,7 +52,7 @@
   :forms '(("function" "K" "variables")) :options '("extend" "within" "unknowns" "cyclic")
   :kinds *analysis-motions*)
 (core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds"
-  "analysis_extended_motion" "RouthFunction" "remaining_coordinates" "extend" "cyclic_integrals"
+  "analysis_extended_motion" "reduced_function" "reduced_coordinates" "extend" "reduced_integrals"
   "actions")
 (core-rule-given "extend" "InvariantManifolds" '("function") "analysis/manifolds"
   "analysis_extended_function" "K" "variables" "extend")
@@ -105,10 +79,14 @@
   *analysis-where* *analysis-laws*)
 (core-rule "special_cases_sought" :any "analysis/motion_records" "analysis_special_cases"
   *analysis-where* *analysis-laws* *analysis-unknowns*)
+(core-rule "undisturbed_motion" '("equations") "analysis/second_order" "analysis_equations_motion"
+  "state_equations" *analysis-variables* "solution" "special_cases_sought")
 (core-rule "undisturbed_motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
 (core-rule "undisturbed_motion" *analysis-motions* "analysis/given_solution"
   "analysis_lagrange_motion" "LagrangeEquations" "coordinates" "solution" "special_cases")
+(core-rule "charge_motion" '("circuit") "analysis/second_order" "analysis_charge_motion"
+  "LagrangeEquations" "coordinates" (list "solution" *analysis-none*) "special_cases")
 (core-rule "undisturbed_routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
   "special_cases")
@@ -141,8 +119,12 @@
   :forms '(("lagrangian" "Lagrangian" "coordinates" "solution")
            ("equations" "equations" "solution"))
   :trailing '("solution") :options *analysis-linear-options* :kinds *analysis-kinds*)
+(core-rule "FirstApproximation" '("equations") "analysis/second_order" "analysis_approximation"
+  "motion")
 (core-rule "FirstApproximation" *analysis-states* "analysis/first_approximation"
   "analysis_state_approximation" "motion")
+(core-rule-given '("function" $lagrange) "FirstApproximation" '("circuit")
+  "analysis/first_approximation" "analysis_second_order_approximation" "charge_motion")
 (core-rule "FirstApproximation" *analysis-motions* "analysis/first_approximation"
   "analysis_second_order_approximation" "motion")
 (core-rule-given '("function" $routh) "FirstApproximation" *analysis-kinds*
@@ -152,9 +134,17 @@
       do (core-rule-given given "FirstApproximation" kinds "analysis/first_approximation"
            "analysis_state_approximation" "hamilton_motion"))
 
+(core-rule-same-as "second_order_approximation" *analysis-kinds* "FirstApproximation"
+  :given '("function" $routh))
+(core-rule "second_order_approximation" '("circuit") "analysis/first_approximation"
+  "analysis_second_order_approximation" "charge_motion")
+(core-rule "second_order_approximation" '("equations") "analysis/second_order"
+  "analysis_second_order_only" "motion")
+(core-rule-same-as "second_order_approximation" *analysis-kinds* "FirstApproximation")
+
 (core-rule-field "A" *analysis-kinds* "FirstApproximation" "A")
 (loop for part in '("M" "S" "W")
-      do (core-rule-field part *analysis-kinds* "FirstApproximation" part)
+      do (core-rule-field part *analysis-kinds* "second_order_approximation" part)
          (core-rule-given '("function" $hamilton) part *analysis-kinds*
            "analysis/first_approximation" "analysis_no_second_order"))
 
@@ -170,9 +160,10 @@
       do (core-rule-given given "CharacteristicPolynomial" *analysis-motions*
            "analysis/characteristic"
            "analysis_characteristic_polynomial" "A" *analysis-lambda*))
-(core-rule-given '("function" $routh) "CharacteristicPolynomial" *analysis-states*
-  "analysis/characteristic"
-  "analysis_pencil_polynomial" "M" "S" "W" *analysis-lambda*)
+(dolist (function '($lagrange $routh))
+  (core-rule-given (list "function" function) "CharacteristicPolynomial" *analysis-states*
+    "analysis/characteristic"
+    "analysis_pencil_polynomial" "M" "S" "W" *analysis-lambda*))
 
 (core-rule-same-as "polynomial" *analysis-kinds* "CharacteristicPolynomial")
 
@@ -186,12 +177,12 @@
 
 (core-public "Stability"
   :forms '(("equations" "equations" "solution"))
-  :trailing '("solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
+  :trailing '("solution") :options *analysis-linear-options* :kinds *analysis-kinds*)
 (core-rule "Stability"
   (set-difference *analysis-states* (core-kinds-giving "known_integrals") :test #'string=)
   "analysis/stability" "analysis_stability_state" "motion")
-(core-rule "Stability" '("equations") "analysis/stability_by_integrals"
-  "analysis_stability_known"
+(core-rule "Stability" '("equations") "analysis/stability_by_form"
+  "analysis_stability_equations"
   "motion" *analysis-integrals* (list "level" *analysis-none*) *analysis-laws*)
 (core-rule "Stability" '("poisson") "analysis/stability_by_integrals"
   "analysis_stability_poisson"
@@ -203,14 +194,16 @@
 (core-rule "Stability" *analysis-bodiless* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
-
-;;; Lyapunov's second method
-
-(core-public "LyapunovTest"
-  :forms '(("equations" "equations" "V" "solution"))
-  :trailing '("V" "solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
-(core-rule "LyapunovTest" *analysis-kinds* "analysis/lyapunov_test" "analysis_lyapunov_test"
-  "motion" "V" *analysis-laws*)
+(core-rule-given '("function" $lagrange) "Stability" '("circuit") "analysis/stability_by_form"
+  "analysis_stability_charges" "charge_motion")
+(core-rule-given '("function" $routh) "Stability" *analysis-kinds* "analysis/stability_by_energy"
+  "analysis_stability_lagrangian"
+  "routh_motion" "RouthFunction" "actions" *analysis-laws*)
+(loop for (given kinds) in `((("function" $hamilton) ,*analysis-kinds*)
+                             ("hamiltonian" ("lagrangian")))
+      do (core-rule-given given "Stability" kinds "analysis/stability_by_form"
+           "analysis_stability_hamilton" "hamilton_motion" "Hamiltonian" "actions"
+           *analysis-laws*))
 
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
@@ -229,50 +222,6 @@
            "analysis_rest_points_hamilton"
            "HamiltonEquations" "Hamiltonian" "actions" *analysis-values* *analysis-laws*))
 
-;;; The method of Routh and Lyapunov
-
-(core-public "SecondVariation"
-  :forms '(("function" "K" "variables" "solution" "&optional" "integrals")) :options '("manifold"))
-(core-rule "SecondVariation" '("function") "analysis/variation" "analysis_second_variation"
-  "K" "variables" "solution" (list "integrals" *analysis-none*) (list "manifold" *analysis-none*))
-
-(core-public "RouthLyapunov"
-  :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers" "function")
-  :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
-(core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov_on"
-  "state_equations" "integrals_on_level" "variables" "special_cases_sought"
-  (list "multipliers" *analysis-none*) (list "solution" *analysis-none*))
-(core-rule "integrals_on_level" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_integrals_on_level" "known_integrals" (list "level" *analysis-none*)
-  (list "within" *analysis-none*))
-
-;;; Mechanical systems as equations of the first order with integrals
-
-(core-rule "routh_system" *analysis-motions* "analysis/reduced_system" "analysis_routh_system"
-  "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) "actions"
-  *analysis-laws*)
-(core-rule-later "routh_system_asked" *analysis-motions* "routh_system")
-(loop for name in '("routh_stationary_equations" "routh_stationary_solutions")
-      do (core-rule-later (concatenate 'string name "_asked") *analysis-motions* name))
-(core-rule-later "motion_asked" *analysis-motions* "motion")
-(core-rule-later "Lagrangian_asked" *analysis-motions* "Lagrangian")
-(core-rule-later "reduced_system_asked" *analysis-motions* "reduced_system")
-(core-rule-later "euler_poisson_asked" '("mechanical") "EulerPoisson")
-(core-rule-later "variables_asked" '("mechanical") "variables_in_coordinates")
-(core-rule-same-as "reduced_system" *analysis-bodiless* "routh_system")
-(core-rule-same-as "reduced_system" '("mechanical") "routh_system" :given '("function" $routh))
-(core-rule "carried_system" '("mechanical") "analysis/reduced_system" "analysis_carried_system"
-  "euler_poisson_asked" "variables_asked" *analysis-functions* *analysis-laws* "coordinates")
-(core-rule "reduced_system" '("mechanical") "analysis/reduced_system" "analysis_reduced_system"
-  "carried_system" "routh_system_asked")
-
-(core-rule "RouthLyapunov" *analysis-motions* "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov_motion"
-  "reduced_system" "coordinates" "special_cases_sought" (list "multipliers" *analysis-none*)
-  (list "solution" *analysis-none*))
-
 ;;; Matrices and forms
 
 (core-public "RootCount" :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
@@ -285,52 +234,55 @@
   "polynomial" "u")
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
-                               ("Signature" "analysis_signature")
-                               ("Definite" "analysis_definite_or_undecided"))
+                               ("Signature" "analysis_signature"))
       do (core-public name :forms '(("matrices" "A")))
          (core-rule name :any "analysis/definite" function "A"))
 
+(defparameter *analysis-part* (list "part" *analysis-none*))
+(core-option :truth "squares")
+(core-public "Definite" :forms '(("matrices" "A") ("function" "K" "variables"))
+                        :options '("part" "squares"))
+(core-rule "Definite" '("matrices") "analysis/semidefinite" "analysis_definite_or_undecided"
+  "A" *analysis-part*)
+(core-rule "Definite" '("function") "analysis/definite_function" "analysis_definite_function"
+  "K" "variables" *analysis-part* '("squares" nil))
+
+(core-public "ReduceForms" :forms '(("matrices" "A" "B")))
+(core-rule "ReduceForms" '("matrices") "analysis/reduce_forms" "analysis_reduce_forms" "A" "B")
+
+(defparameter *analysis-pencils* (append *analysis-motions* '("circuit"))
+  "Kinds whose first approximation has matrices M, S, W, circuits in charges.")
+
 (core-public "ForceStructure"
-  :forms '(("pencil" "M" "S" "W"))
-  :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
+  :forms '(("pencil" "M" "S" "W") ("equations" "equations" "solution"))
+  :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-pencils*)
 (core-rule "ForceStructure" :any "analysis/kelvin_chetaev" "analysis_force_structure" "M" "S" "W")
 
 (core-public "KelvinChetaev"
-  :forms '(("forces" "M" "D" "G" "K" "P"))
-  :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-motions*)
+  :forms '(("forces" "M" "D" "G" "K" "P") ("equations" "equations" "solution"))
+  :trailing '("solution") :options '("where" "function" "cyclic") :kinds *analysis-pencils*)
 (core-rule "KelvinChetaev" '("forces") "analysis/kelvin_chetaev" "analysis_kelvin_chetaev"
   "M" "D" "G" "K" "P")
-(core-rule "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev"
-  "analysis_kelvin_chetaev_system"
-  "M" "D" "G" "K" "P" "motion")
-(core-rule-given '("function" $routh) "KelvinChetaev" *analysis-motions* "analysis/kelvin_chetaev"
+(loop for (motion kinds) in `(("motion" ,(cons "equations" *analysis-motions*))
+                              ("charge_motion" ("circuit")))
+      do (core-rule "KelvinChetaev" kinds "analysis/kelvin_chetaev"
+           "analysis_kelvin_chetaev_system" "M" "D" "G" "K" "P" motion))
+(core-rule-given '("function" $routh) "KelvinChetaev" *analysis-pencils* "analysis/kelvin_chetaev"
   "analysis_kelvin_chetaev_system"
   "M" "D" "G" "K" "P" "routh_motion")
 (loop for part in '("D" "G" "K" "P")
-      do (core-rule-field part *analysis-motions* "ForceStructure" part))
+      do (core-rule-field part (cons "equations" *analysis-pencils*) "ForceStructure" part))
 
 ;;; Integrals of linear systems
 
-(loop for (name function) in '(("LinearIntegrals" "analysis_linear_integrals")
-                               ("QuadraticIntegrals" "analysis_quadratic_integrals"))
-      do (core-public name :forms '(("matrices" "A" "variables")))
-         (core-rule name :any "analysis/linear_system" function "A" "variables"))
-
-;;; A mixed potential as Lyapunov's function
-
-(core-public "BraytonMoser" :options '("where" "solution") :kinds '("circuit"))
-(core-rule "BraytonMoser" '("circuit") "analysis/brayton_moser" "analysis_brayton_moser"
-  "MixedPotential" "potential_stores" *analysis-where*)
-(core-rule-given "solution" "BraytonMoser" '("circuit") "analysis/brayton_moser_verdict"
-  "analysis_brayton_moser_judged" "MixedPotential" "potential_stores" *analysis-where* "motion")
-
-(core-public "PolynomialIntegrals"
-  :forms '(("equations" "equations" "degree"))
-  :trailing '("degree") :options '("where" "integrals") :kinds *analysis-states*)
-(loop for (kinds integrals) in `((,(remove "poisson" *analysis-states* :test #'string=)
-                                  ,*analysis-integrals*)
-                                 (("poisson") "poisson_integrals"))
-      do (core-rule "PolynomialIntegrals" kinds "analysis/polynomial_integrals"
-           "analysis_polynomial_integrals"
-           "state_equations" *analysis-variables* "degree" integrals
-           (list "level" *analysis-none*) "special_cases"))
+(loop for (name function) in '(("LinearIntegrals" "linear_integrals")
+                               ("QuadraticIntegrals" "quadratic_integrals"))
+      do (core-public name :forms '(("matrices" "A" "variables") ("pencil" "M" "S" "W" "variables"))
+                           :trailing '("solution") :options *analysis-linear-options*
+                           :kinds *analysis-kinds*)
+         (flet ((rule (kinds before after &rest inputs)
+                  (apply #'core-rule name kinds "analysis/linear_system"
+                         (concatenate 'string "analysis_" before function after) inputs)))
+           (rule '("matrices") "" "" "A" "variables")
+           (rule '("pencil") "pencil_" "" "M" "S" "W" "variables")
+           (rule *analysis-kinds* "" "_near" "FirstApproximation")))

@@ -224,8 +224,10 @@ others."
 
 ;;; All of a call
 
-(defparameter *archive-complex-arguments* '("expression" "motion" "program" "file" "language")
-  "Arguments that may be complex, or are no formulas.")
+(defparameter *archive-complex-arguments*
+  '("expression" "motion" "program" "file" "language" "polynomial" "A" "M" "S" "W")
+  "Arguments that may be complex, or are no formulas; functions of matrices and of polynomials say
+themselves what they take.")
 
 (defparameter *archive-wanted-real* "found %i; real expressions are wanted")
 

@@ -48,6 +48,7 @@ and always have values."
     (:solution archive-as-solution "a list such as [theta = 0, 'diff(theta,t) = w]")
     (:rates archive-as-system "a list of equations such as ['diff(x,t) = y, 'diff(y,t) = -x]")
     (:integrals archive-as-integrals "a list of integrals such as [V0 = x^2 + y^2]")
+    (:conditions archive-as-conditions "a list of conditions such as [a - mu^2 > 0]")
     (:branches archive-as-branches "a list such as [i1 = L1, i2 = L2]")
     (:interval archive-as-interval "a span of time, such as [t, 0, 10]")
     (:window archive-as-window
@@ -116,6 +117,19 @@ subscripts, and a formula may stand for a law of its own.")
 (defun archive-time-derivative-p (value)
   (and (archive-head-p value '%derivative) (archive-variable-p (second value))
        (eq (third value) '$t) (null (cddddr value))))
+
+(defun archive-as-conditions (value)
+  (unless (archive-list-p value) (archive-unfit))
+  (mapc #'archive-a-condition (cdr value)))
+
+(defun archive-a-condition (value)
+  (cond ((member value '(t nil)))
+        ((archive-head-p value 'mand 'mor 'mnot) (mapc #'archive-a-condition (cdr value)))
+        ((and (archive-head-p value 'mgreaterp 'mlessp 'mgeqp 'mleqp 'mequal '$equal 'mnotequal
+                              '$notequal)
+              (cddr value))
+         (mapc #'archive-formula-inside (cdr value)))
+        (t (archive-unfit "~a is no condition" (archive-argument-shown value)))))
 
 (defun archive-as-movement (value)
   "Equations for coordinates and derivatives of coordinates, none twice."

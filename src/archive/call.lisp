@@ -6,7 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/groups" "archive/names" "archive/open" "archive/types"))
+  (core-require "archive/bare_graph" "archive/groups" "archive/names" "archive/open"
+                "archive/types"))
 
 (defstruct archive-call
   public archive kind
@@ -37,13 +38,21 @@
   "Whether ARGUMENT is a path or a description list."
   (and (or (core-public-kinds public) (core-public-trailing public))
        (or (stringp argument)
+           (archive-graph-argument-p argument public)
            (and (archive-list-p argument)
                 (some (lambda (e) (and (archive-equation-p e) (member (cadr e) '($kind $dynarch))))
                       (cdr argument))))))
 
+(defun archive-graph-argument-p (argument public)
+  "Whether ARGUMENT is the list of a circuit's graph, for a function of circuits."
+  (and (member "circuit" (core-public-kinds public) :test #'string=)
+       (archive-graph-list-p argument)))
+
 (defun archive-open-system (system)
-  "The archive of a path, as given or found by Maxima's file_search, or of a description list."
-  (cond ((not (stringp system)) (archive-open-list system))
+  "The archive of a path, as given or found by Maxima's file_search, of a description list, or of
+the list of a graph."
+  (cond ((archive-graph-list-p system) (archive-open-list (archive-graph-description system)))
+        ((not (stringp system)) (archive-open-list system))
         ((core-existing-file system) (archive-open system))
         (t (archive-open-found system))))
 

@@ -36,11 +36,18 @@
   (let ((answers '()) (rest nil))
     (dolist (key (archive-keys kind word) (nreverse answers))
       (let ((need (archive-key-needed key answers section)))
-        (when (and need (or (eq need :needed) (not rest)))
+        (when (and need (archive-key-question key) (or (eq need :needed) (not rest)))
           (let ((text (archive-ask-key key section (eq need :needed))))
             (cond ((eq text :rest) (setq rest t))
                   (text
-                   (push (make-archive-item :section section :key key :text text) answers)))))))))
+                   (push (make-archive-item :section section :key key :text text) answers)
+                   (archive-say-implied key answers)))))))))
+
+(defun archive-say-implied (key answers)
+  "Says what an answer to KEY implies beside the other ANSWERS."
+  (when (and (eq (archive-key-type key) :graph) (not (archive-answered answers "system" "sign")))
+    (archive-say "  A graph as a list implies sign = generator: a positive resistance feeds ~
+                  energy. Give sign = passive where it takes energy.")))
 
 (defun archive-ask-count (sort)
   "How many sections of the SORT there are."

@@ -40,8 +40,8 @@
              (letter (archive-net-letter element))
              (maker (cdr (assoc letter *archive-net-makers*))))
         (unless maker
-          (archive-net-fault "the element ~a is of a type that is not read; R C L V I E F G H K D B ~
-                              X are" (archive-shown (net-element-name element))))
+          (archive-net-fault "the element ~a is of a type that is not read; R C L V I E F G H K ~
+                              D B X are" (archive-shown (net-element-name element))))
         (funcall maker sheet element)))
     sheet))
 
@@ -73,9 +73,10 @@
   (let* ((name (net-element-name element)) (small (string-downcase name)))
     (when (gethash small (net-sheet-labels sheet))
       (archive-net-fault "the element ~a is there already" (archive-shown name)))
-    (setf (gethash small (net-sheet-labels sheet))
-          (archive-net-free-name sheet (if (archive-net-usable-p name) name
-                                           (format nil "~a_" (archive-net-plain name)))))))
+    (let ((plain (archive-net-plain name)))
+      (setf (gethash small (net-sheet-labels sheet))
+            (archive-net-free-name sheet (if (archive-net-usable-p plain) plain
+                                             (format nil "~a_" plain)))))))
 
 (defun archive-net-label (sheet element)
   (gethash (string-downcase (net-element-name element)) (net-sheet-labels sheet)))
@@ -230,8 +231,8 @@
 (defun archive-net-behaviour (sheet element)
   "B1 a b I = expression, V = expression"
   (multiple-value-bind (type formula law)
-      (archive-net-behaviour-law element
-                                 (lambda (name) (archive-net-node name (net-element-place element))))
+      (archive-net-behaviour-law
+       element (lambda (name) (archive-net-node name (net-element-place element))))
     (if law
         (archive-net-put-law sheet element type (if (string= type "RU") "u" "i") formula)
         (archive-net-put-branch sheet element type formula))))

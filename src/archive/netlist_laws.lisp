@@ -77,10 +77,12 @@ u or current i; NODE gives the whole name of a node."
   (let* ((text (net-element-text element))
          (sign (position #\= text))
          (before (and sign (archive-net-trimmed (subseq text 0 sign))))
-         (letter (and before (plusp (length before)) (char-downcase (char before (1- (length before))))))
+         (letter (and before (plusp (length before))
+                      (char-downcase (char before (1- (length before))))))
          (after (and sign (archive-net-trimmed (subseq text (1+ sign))))))
     (unless (and letter (find letter "iv") (plusp (length after)))
-      (archive-net-fault "~a: expected I = expression or V = expression" (net-element-name element)))
+      (archive-net-fault "~a: expected I = expression or V = expression"
+                         (net-element-name element)))
     (values letter (substitute-if #\Space (lambda (c) (find c "{}'")) after))))
 
 (defun archive-net-behaviour-name (element name node)

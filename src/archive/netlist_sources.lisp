@@ -17,8 +17,8 @@
   (let ((dc "0") (wave nil))
     (loop while fields
           do (let* ((field (pop fields)) (word (string-downcase field)))
-               (cond ((string= word "dc") (setq dc (archive-net-value (archive-net-next field fields)
-                                                                      scope))
+               (cond ((string= word "dc")
+                      (setq dc (archive-net-value (archive-net-next field fields) scope))
                       (pop fields))
                      ((string= word "ac") (setq fields (archive-net-after-ac fields)))
                      ((assoc word *archive-net-waves* :test #'string=)
@@ -52,7 +52,8 @@
                   (or (position ")" fields :test #'string=)
                       (archive-net-fault "a parenthesis without its end"))
                   (or (position-if-not #'archive-net-like-value-p fields) (length fields)))))
-    (values (mapcar (lambda (field) (archive-net-value field scope)) (subseq fields 0 end))
+    (values (mapcar (lambda (field) (format nil "(~a)" (archive-net-value field scope)))
+                    (subseq fields 0 end))
             (nthcdr (if open (1+ end) end) fields))))
 
 ;;; Numbers that must be known

@@ -8,12 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/netlist_lines" "archive/parser" "archive/speller" "archive/tokens"))
-
-(defparameter *archive-net-suffixes*
-  '(("meg" . 6) ("t" . 12) ("g" . 9) ("k" . 3) ("m" . -3) ("u" . -6) ("n" . -9) ("p" . -12)
-    ("f" . -15))
-  "Suffixes and their powers of ten; the longer ones first.")
+  (core-require "archive/netlist_lines" "archive/parser" "archive/speller" "archive/suffixes"
+                "archive/tokens"))
 
 (defparameter *archive-net-functions*
   '(("abs" . "abs") ("sqrt" . "sqrt") ("exp" . "exp") ("ln" . "log") ("log" . "log")
@@ -64,7 +60,7 @@
                           (let ((n (length (car pair))))
                             (and (>= (length letters) n)
                                  (string-equal (car pair) letters :end2 n))))
-                        *archive-net-suffixes*)))
+                        *archive-suffixes*)))
     (cond ((and (>= (length letters) 3) (string-equal "mil" letters :end2 3))
            (archive-net-fault "the suffix mil is not read; write 25.4e-6"))
           ((and (plusp (length letters)) (char-equal (char letters 0) #\a))
@@ -96,8 +92,8 @@ name in small letters, gives the text of its value."
            (archive-net-power-piece text (+ from 2) end))
           ((char= c #\^) (archive-net-power-piece text (1+ from) end))
           ((find c "+-*/(),") (values (string c) (1+ from)))
-          (t (archive-net-fault "found `~a' in an expression; + - * / ^ ** ( ), numbers, parameters ~
-                                 and functions are read" (archive-shown (string c)))))))
+          (t (archive-net-fault "found `~a' in an expression; + - * / ^ ** ( ), numbers, ~
+                                 parameters and functions are read" (archive-shown (string c)))))))
 
 (defvar *archive-net-even-powers* nil
   "Whether exponents are even numbers: programs differ on other powers of what may be negative.")
@@ -192,7 +188,8 @@ name in small letters, gives the text of its value."
                (or (find (char field 0) "{+-.") (digit-char-p (char field 0))
                    (archive-letter-p (char field 0))))
     (archive-net-fault "found `~a', expected a value" (archive-shown field)))
-  (archive-net-text (string-left-trim "+" field) (lambda (name) (archive-net-parameter name scope))))
+  (archive-net-text (string-left-trim "+" field)
+                    (lambda (name) (archive-net-parameter name scope))))
 
 ;;; Parameters
 

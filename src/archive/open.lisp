@@ -5,7 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/argument_checks" "archive/bytes" "archive/description" "archive/groups"
+  (core-require "archive/argument_checks" "archive/bare_graph" "archive/bytes"
+                "archive/description" "archive/groups"
                 "archive/keys" "archive/names" "archive/parser" "archive/plain_simplifier"
                 "archive/sections" "archive/types"))
 
@@ -29,8 +30,11 @@
     (archive-of-groups path text sheet (archive-groups-of-sheet sheet))))
 
 (defun archive-open (path)
-  "The checked archive in the file PATH."
-  (archive-of-text path (archive-read-file path)))
+  "The checked archive in the file PATH; the list of a graph alone has no file to write in."
+  (let ((text (archive-read-file path)))
+    (if (archive-bare-graph-p text)
+        (archive-open-list (archive-bare-graph-description path text))
+        (archive-of-text path text))))
 
 (defun archive-open-list (list)
   "The checked archive that a description list is; it has no file."

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/keys" "archive/open" "archive/types"))
+  (core-require "archive/bare_graph" "archive/keys" "archive/open" "archive/types"))
 
 (defvar *archive-asked* '() "The questions asked in this dialog.")
 (defvar *archive-fresh-input* nil
@@ -81,6 +81,22 @@ the same text."
   (let ((answer (string-downcase (archive-ask-line question))))
     (member answer '("y" "yes") :test #'string=)))
 
+;;; The list of a graph, pasted on several lines
+
+(defun archive-open-brackets (text)
+  "How many brackets of TEXT are not closed."
+  (- (count-if (lambda (c) (find c "[{(")) text) (count-if (lambda (c) (find c "]})")) text)))
+
+(defun archive-whole-answer (key answer)
+  "ANSWER, for the key of a graph with the lines that close its brackets, without a full stop."
+  (if (or (not (eq (archive-key-type key) :graph)) (member answer '("" "." "?") :test #'string=))
+      answer
+      (loop while (plusp (archive-open-brackets answer))
+            for more = (archive-read-line)
+            while (and more (string/= "" (archive-trimmed-answer more)))
+            do (setq answer (format nil "~a ~a" answer (archive-trimmed-answer more)))
+            finally (return (archive-without-stop answer)))))
+
 ;;; One key
 
 (defun archive-question-text (key section required)
@@ -107,7 +123,8 @@ the same text."
   "The text of the value of KEY; nil for its default, :rest where the person takes all defaults
 that follow."
   (loop
-    (let* ((answer (archive-ask-line (archive-question-text key section required)))
+    (let* ((answer (archive-whole-answer
+                    key (archive-ask-line (archive-question-text key section required))))
            (text (archive-answer-for-archive key answer)))
       (cond ((string= answer "?") (archive-explain key))
             ((and (string= answer ".") (not required)) (return :rest))

@@ -18,13 +18,12 @@
                   (core-words (list name)))))
   (when (and (not replace) (archive-exists-p archive))
     (core-error "~a exists already; give replace = true to write over it" archive))
-  (let ((text (archive-net-archive-text netlist)))
-    (archive-write-new archive text)))
+  (archive-write-new archive (archive-net-archive-text netlist (archive-net-file-text netlist))))
 
-(defun archive-net-archive-text (file)
-  "The text of the archive that the netlist FILE becomes."
+(defun archive-net-archive-text (file netlist)
+  "The text of the archive that NETLIST, the text of FILE, becomes."
   (let* ((*archive-net-file* (archive-file-name file)) (*archive-net-line* 1)
-         (sheet (archive-net-sheet (archive-net-read (archive-net-file-text file))))
+         (sheet (archive-net-sheet (archive-net-read netlist)))
          (text (archive-net-sheet-text sheet)))
     (multiple-value-bind (archive trouble)
         (let ((*core-function* nil) (*core-warnings* (list "")))

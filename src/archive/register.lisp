@@ -149,7 +149,7 @@
     ("datum" :node nil "node of zero potential; the first node of the first branch unless given"
      "Node of zero potential")
     ("nodes" :nodes "[]"
-     "what nodes were called in the netlist that the archive was read from" "Names of nodes")
+     "what nodes were called in the netlist that the archive was read from" nil)
     ("tree" :names nil
      "labels of the branches of the proper tree, such as [C1, C2]; found unless given"
      "Labels of the tree's branches"))

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/bigfloats"))
+  (core-require "archive/suffixes" "core/bigfloats"))
 
 (deftype archive-text-string ()
   #+sbcl '(simple-array character (*))
@@ -203,8 +203,11 @@ and whether it is one of a long decimal, 1.50b0, which tables of numerical resul
       (when (and (< after end) (let ((c (char text after))) (or (archive-word-p c) (char= c #\.))))
         (archive-fault reader after
                        "found `~a' directly after a number, expected an operator; write * for a ~
-                        product"
-                       (archive-shown (string (char text after)))))
+                        product~@[; ~a~]"
+                       (archive-shown (string (char text after)))
+                       (archive-suffix-advice (subseq text from after)
+                                              (subseq text after (archive-word-end text after end))
+                                              (reader-value reader))))
       (archive-token! reader :number after))))
 
 ;; Strings and names

@@ -41,8 +41,7 @@
     (:nodes archive-as-nodes "a list of nodes and what they were called, such as [n_in = \"in\"]")
     (:states archive-as-states "a list of states by label, such as [i1 = L1, u3 = C3]")
     (:graph archive-as-graph "a list of branches, such as {{{1, 2}, L1}, {{2, 3}, C1, u1}}")
-    (:skew archive-as-skew
-           "a square matrix with {x_j, x_i} = -{x_i, x_j}, such as [[0, 1], [-1, 0]]")
+    (:skew archive-as-skew "a square matrix that is skew, such as [[0, 1], [-1, 0]]")
     (:algebra archive-as-algebra "so(4), e(3) or so(3,1)"))
   "Type, the function below that checks a value of it, and what such a value is.")
 
@@ -145,7 +144,6 @@ sixty letters."
 (defun archive-as-text (value) (if (stringp value) value (archive-unfit)))
 
 (defun archive-as-count (value) (if (and (integerp value) (plusp value)) value (archive-unfit)))
-
 (defun archive-as-expression (value) (if (archive-expression-p value) value (archive-unfit)))
 
 (defun archive-as-node (value)
@@ -200,13 +198,13 @@ sixty letters."
 (defun archive-as-velocity (value)
   (if (eq value '$auto) value (archive-as-vector value)))
 
-(defun archive-as-points (value)
-  (if (= (length (archive-items value)) 2) (archive-each #'archive-as-vector value)
-      (archive-unfit)))
+(defun archive-both (function value)
+  "The list of what FUNCTION makes of both items of VALUE."
+  (if (= (length (archive-items value)) 2) (archive-each function value) (archive-unfit)))
 
-(defun archive-as-pair (value)
-  (if (= (length (archive-items value)) 2) (archive-each #'archive-as-parent value)
-      (archive-unfit)))
+(defun archive-as-points (value) (archive-both #'archive-as-vector value))
+
+(defun archive-as-pair (value) (archive-both #'archive-as-parent value))
 
 (defun archive-an-axis (value)
   (if (member value '(1 2 3)) value (archive-unfit "~a is no axis" (archive-value-shown value))))
@@ -219,9 +217,7 @@ sixty letters."
         (archive-list (list (archive-an-axis (first items)) (archive-a-name (second items))))
         (archive-unfit))))
 
-(defun archive-as-span (value)
-  (if (= (length (archive-items value)) 2) (archive-each #'archive-a-number value)
-      (archive-unfit)))
+(defun archive-as-span (value) (archive-both #'archive-a-number value))
 
 ;; Matrices
 
@@ -282,8 +278,7 @@ those who compute with it."
   (archive-checked-equations value #'archive-a-name #'archive-a-number))
 
 (defun archive-as-nodes (value)
-  (archive-checked-equations value #'archive-a-name
-                             (lambda (e) (if (stringp e) e (archive-unfit)))))
+  (archive-checked-equations value #'archive-a-name #'archive-as-text))
 
 (defun archive-as-states (value)
   (archive-checked-equations value #'archive-a-name #'archive-a-name))

@@ -23,9 +23,12 @@
 (core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 
-(core-public "PotentialParts" :kinds '("circuit"))
+(core-option :truth "pairs")
+(core-public "PotentialParts" :options '("pairs") :kinds '("circuit"))
 (core-rule "PotentialParts" '("circuit") "circuits/potential" "circuits_potential_parts"
   "circuit" "network" "own_parts")
+(core-rule-given '("pairs" t) "PotentialParts" '("circuit") "circuits/potential"
+  "circuits_parts_by_pairs" "circuit" "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
 (core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
@@ -60,8 +63,8 @@
 (core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "circuit"
   "network")
 
-(core-rule "PortHamiltonian" '("circuit") "circuits/ports"
-  "circuits_port_hamiltonian" "circuit")
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian"
+  "circuit" "network" "tableau")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
@@ -105,3 +108,15 @@
 (loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
                                 ("forces" "Q"))
       do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
+
+;;; SPICE netlists: written in each call
+
+(core-option :truth "replace")
+(core-rule "netlist_text" '("circuit") "circuits/write_netlist" "circuits_netlist_text" "circuit"
+  '("values" ((mlist simp))) '("where" ((mlist simp))) '("nodes" ((mlist simp)))
+  '("start" ((mlist simp))) '("time" ((mlist simp))))
+(core-public "WriteNetlist"
+  :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
+  :kinds '("circuit"))
+(core-act "WriteNetlist" nil '("circuit") "circuits/write_netlist" "circuits_write_netlist"
+  "netlist_text" "netlist" '("replace" nil))

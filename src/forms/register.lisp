@@ -89,6 +89,9 @@
   "Lagrangian" "coordinates" '("momenta" ((mlist simp))) '("form" $auto))
 (core-rule-same-as "Hamiltonian" '("lagrangian") "hamiltonian" :given "hamiltonian")
 
+(core-rule-given "hamiltonian" "Lagrangian" '("lagrangian") "forms/lagrangian_of_hamilton"
+  "forms_lagrangian_of_hamilton" "hamiltonian" "coordinates" '("momenta" ((mlist simp))))
+
 (core-public "HamiltonEquations"
   :forms '(("lagrangian" "Lagrangian" "coordinates"))
   :options '("momenta" "rayleigh" "forces" "constraints" "nonholonomic")

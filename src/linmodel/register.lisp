@@ -108,3 +108,5 @@
            "scene" "remark_values" '("form" $auto))
 (core-rule "variables_in_coordinates" '("mechanical") "linmodel/euler_poisson"
   "linmodel_variables_in_coordinates" "scene" "remark_values" '("form" $auto))
+(core-rule "integral_candidates" '("mechanical") "linmodel/euler_poisson"
+  "linmodel_integral_candidates" "scene" "remark_values" '("form" $auto))
