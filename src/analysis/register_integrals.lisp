@@ -14,10 +14,10 @@
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers" "function")
+  :options '("where" "unknowns" "multipliers" "within" "function")
   :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
 (core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov_on"
+  "analysis_routh_lyapunov"
   "state_equations" "integrals_on_level" "variables" "special_cases_sought"
   (list "multipliers" *analysis-none*) (list "solution" *analysis-none*))
 (core-rule "integrals_on_level" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
@@ -32,8 +32,7 @@
 (core-rule-later "routh_system_asked" *analysis-motions* "routh_system")
 (loop for name in '("routh_stationary_equations" "routh_stationary_solutions")
       do (core-rule-later (concatenate 'string name "_asked") *analysis-motions* name))
-(core-rule-later "motion_asked" *analysis-motions* "motion")
-(core-rule-later "Lagrangian_asked" *analysis-motions* "Lagrangian")
+(core-rule-later "stability_in_coordinates_asked" '("mechanical") "stability_in_coordinates")
 (core-rule-later "reduced_system_asked" *analysis-motions* "reduced_system")
 (core-rule-tried "euler_poisson_or_why" '("mechanical") "EulerPoisson")
 (core-rule-later "euler_poisson_asked" '("mechanical") "euler_poisson_or_why")
