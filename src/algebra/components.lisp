@@ -60,7 +60,7 @@ sentence where there is too much."
              (let* ((branch (pop waiting))
                     (grown (catch 'algebra-too-large (algebra-basis-of-branch branch))))
                (cond ((eq grown 'too-large)
-                      (push (list (algebra-given-equations branch)) components)
+                      (push (list nil (algebra-given-equations branch)) components)
                       (setq *algebra-work-left* (floor work 4)))
                      (t (let* ((basis (algebra-branch-elements grown))
                                (factors (algebra-factors-in basis kernels)))
@@ -68,17 +68,25 @@ sentence where there is too much."
                               (setq waiting (append (algebra-branches-by factors grown) waiting))
                               (let ((component (algebra-component basis (length kernels))))
                                 (when component (push component components)))))))))
-    (nreverse components)))
+    (mapcar #'cdr (algebra-not-contained (nreverse components)))))
+
+(defun algebra-not-contained (components)
+  "(basis generators . dimension) of those that lie in no other of a higher dimension."
+  (flet ((contained-p (a b)
+           (and (cddr a) (cddr b) (< (cddr a) (cddr b))
+                (notany (lambda (p) (algebra-divided-rest p (first a))) (second b)))))
+    (loop for a in components
+          unless (some (lambda (b) (contained-p a b)) components) collect a)))
 
 (defun algebra-given-equations (branch)
   (remove-if-not #'algebra-free-of-z-p
                  (append (algebra-branch-elements branch) (algebra-branch-new branch))))
 
 (defun algebra-component (basis n)
-  "(generators . dimension) of the closure; nil where it is empty."
+  "(basis generators . dimension) of the closure; nil where it is empty."
   (let ((closure (remove-if-not #'algebra-free-of-z-p basis)))
     (unless (algebra-everywhere-nonzero-p closure)
-      (cons (algebra-ideal-generators closure) (algebra-dimension closure n)))))
+      (list* closure (algebra-ideal-generators closure) (algebra-dimension closure n)))))
 
 (defun algebra-first-branch (polynomials apart count)
   (let ((one (list (cons (make-list (1+ count) :initial-element 0) 1))))
