@@ -225,10 +225,11 @@
 
 (defun $uses_needless ()
   "[[part, others], ..]: parts that a part declares by core_require and of which it uses no name.
-The core is left out: it reads its chapters for all."
+The core is left out: it reads its chapters for all; so do the registers, which are data."
   (apply #'uses-list
          (loop for part in (uses-known)
-               for needless = (unless (string= (uses-room (uses-part-name part)) "core")
+               for needless = (unless (or (string= (uses-room (uses-part-name part)) "core")
+                                          (search "/register" (uses-part-name part)))
                                 (remove-if (lambda (other) (uses-needed-p part other))
                                            (uses-part-required part)))
                when needless

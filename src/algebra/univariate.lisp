@@ -9,7 +9,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/kernels" "algebra/normal" "algebra/minors"
-                "algebra/evaluate" "algebra/matrices" "algebra/packed_minors" "algebra/quotient" "algebra/relations" "algebra/scan"))
+                "algebra/evaluate" "algebra/matrices" "algebra/packed_minors" "algebra/quotient"
+                "algebra/relations" "algebra/scan"))
 
 (defun $algebra_coefficients (p x)
   "[a_0, .., a_n], highest power first."

@@ -5,43 +5,7 @@
 
 (in-package :maxima)
 
-(defparameter *analysis-states* (core-kinds-giving "state_equations")
-  "Kinds whose equations are of first order.")
-(defparameter *analysis-motions*
-  (remove-if (lambda (kind) (member kind *analysis-states* :test #'string=))
-             (core-kinds-giving "Lagrangian"))
-  "Kinds whose equations are of second order.")
-(defparameter *analysis-bodiless* (remove "mechanical" *analysis-motions* :test #'string=)
-  "Those without bodies.")
-(defparameter *analysis-kinds* (append *analysis-motions* *analysis-states*))
-(defparameter *analysis-none* '((mlist simp)))
-(defparameter *analysis-lambda* (list "lambda" (core-symbol "lambda")))
-
-(defparameter *analysis-linear-options* '("where" "unknowns" "function" "cyclic")
-  "Options of the first approximation and of what is computed from it.")
-(defparameter *analysis-where* (list "where" *analysis-none*))
-(defparameter *analysis-laws* (list "laws" *analysis-none*))
-(defparameter *analysis-unknowns* (list "unknowns" *analysis-none*))
-(defparameter *analysis-variables* (list "variables" *analysis-none*))
-
-(defparameter *analysis-integrals* (list "integrals" *analysis-none*))
-
-(defparameter *analysis-functions* (list "functions_derived" *analysis-none*)
-  "What equations are derivatives of.")
-
-;;; Arguments. K is a function, and a matrix where forces are given by theirs.
-
-(core-argument :formula "K" "polynomial" "V")
-(core-argument :square "A" "B" "M" "S" "W" "D" "G" "P" '("K" "forces"))
-(core-argument :variables "variables")
-(core-argument :variable "lambda" "u")
-(core-argument :solution "solution")
-(core-argument :rates "equations")
-(core-argument :integrals "integrals")
-(core-argument :vanishing "within" "manifold")
-(core-argument :conditions "conditions")
-
-(core-abbreviator "analysis/abbreviate" "analysis_abbreviate")
+(core-require "analysis/register_words" "analysis/register_integrals")
 
 ;;; Stationary sets
 
@@ -225,11 +189,12 @@
   "motion" "hamiltonian" *analysis-integrals* "structure_matrix" *analysis-laws*)
 (core-rule "Stability" '("mechanical") "analysis/stability_of_bodies"
   "analysis_stability_of_bodies"
-  "coordinates" "solution" "special_cases_sought" "motion_asked" "Lagrangian_asked" "actions"
+  "coordinates" "solution" "special_cases_sought" "stability_in_coordinates_asked"
   "reduced_system_asked")
-(core-rule "Stability" *analysis-bodiless* "analysis/stability_by_energy"
+(core-rule "stability_in_coordinates" *analysis-motions* "analysis/stability_by_energy"
   "analysis_stability_lagrangian"
   "motion" "Lagrangian" "actions" *analysis-laws*)
+(core-rule-same-as "Stability" *analysis-bodiless* "stability_in_coordinates")
 (core-rule-given '("function" $lagrange) "Stability" '("circuit") "analysis/stability_by_form"
   "analysis_stability_charges" "charge_motion")
 (core-rule-given '("function" $routh) "Stability" *analysis-kinds* "analysis/stability_by_energy"
@@ -240,14 +205,9 @@
       do (core-rule-given given "Stability" kinds "analysis/stability_by_form"
            "analysis_stability_hamilton" "hamilton_motion" "Hamiltonian" "actions"
            *analysis-laws*))
-
-;;; Lyapunov's second method
-
-(core-public "LyapunovTest"
-  :forms '(("equations" "equations" "V" "solution"))
-  :trailing '("V" "solution") :options '("where" "unknowns") :kinds *analysis-kinds*)
-(core-rule "LyapunovTest" *analysis-kinds* "analysis/lyapunov_test" "analysis_lyapunov_test"
-  "motion" "V" *analysis-laws*)
+(core-rule-given "integrals" "Stability" '("lagrangian") "analysis/phase_flow"
+  "analysis_stability_lagrangian_known"
+  "motion" "Lagrangian" "actions" *analysis-laws* "integrals")
 
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
@@ -266,58 +226,25 @@
            "analysis_rest_points_hamilton"
            "HamiltonEquations" "Hamiltonian" "actions" *analysis-values* *analysis-laws*))
 
-;;; The method of Routh and Lyapunov
+;;; A map of stability over two parameters
 
-(core-public "SecondVariation"
-  :forms '(("function" "K" "variables" "solution" "&optional" "integrals")) :options '("manifold"))
-(core-rule "SecondVariation" '("function") "analysis/variation" "analysis_second_variation"
-  "K" "variables" "solution" (list "integrals" *analysis-none*) (list "manifold" *analysis-none*))
-
-(core-public "RouthLyapunov"
-  :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers" "function")
-  :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
-(core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov_on"
-  "state_equations" "integrals_on_level" "variables" "special_cases_sought"
-  (list "multipliers" *analysis-none*) (list "solution" *analysis-none*))
-(core-rule "integrals_on_level" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
-  "analysis_integrals_on_level" "known_integrals" (list "level" *analysis-none*)
-  (list "within" *analysis-none*))
-
-;;; Mechanical systems as equations of the first order with integrals
-
-(core-rule "routh_system" *analysis-motions* "analysis/reduced_system" "analysis_routh_system"
-  "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) "actions"
-  *analysis-laws*)
-(core-rule-later "routh_system_asked" *analysis-motions* "routh_system")
-(loop for name in '("routh_stationary_equations" "routh_stationary_solutions")
-      do (core-rule-later (concatenate 'string name "_asked") *analysis-motions* name))
-(core-rule-later "motion_asked" *analysis-motions* "motion")
-(core-rule-later "Lagrangian_asked" *analysis-motions* "Lagrangian")
-(core-rule-later "reduced_system_asked" *analysis-motions* "reduced_system")
-(core-rule-tried "euler_poisson_or_why" '("mechanical") "EulerPoisson")
-(core-rule-later "euler_poisson_asked" '("mechanical") "euler_poisson_or_why")
-(core-rule-later "candidates_asked" '("mechanical") "integral_candidates")
-(core-rule-later "variables_asked" '("mechanical") "variables_in_coordinates")
-(core-rule-same-as "reduced_system" *analysis-bodiless* "routh_system")
-(core-rule-same-as "reduced_system" '("mechanical") "routh_system" :given '("function" $routh))
-(core-rule "carried_system" '("mechanical") "analysis/reduced_system" "analysis_carried_system"
-  "euler_poisson_asked" "variables_asked" "candidates_asked" *analysis-functions*
-  *analysis-laws* "coordinates")
-(core-rule "reduced_system" '("mechanical") "analysis/reduced_system" "analysis_reduced_system"
-  "carried_system" "routh_system_asked")
-
-(core-rule "RouthLyapunov" *analysis-motions* "analysis/routh_lyapunov"
-  "analysis_routh_lyapunov_motion"
-  "reduced_system" "coordinates" "special_cases_sought" (list "multipliers" *analysis-none*)
-  (list "solution" *analysis-none*))
-
-;;; Multipliers
-
-(core-public "EliminateMultipliers" :forms '(("conditions" "conditions" "multipliers")))
-(core-rule "EliminateMultipliers" :any "analysis/multipliers" "analysis_eliminate_multipliers"
-  "conditions" "multipliers")
+(core-public "StabilityMap"
+  :forms '(("polynomial" "polynomial" "horizontal" "vertical"))
+  :trailing '("horizontal" "vertical")
+  :options (append '("values" "solution" "lambda" "file" "replace") *analysis-linear-options*)
+  :kinds *analysis-kinds*)
+(core-rule "stability_map" '("polynomial") "analysis/stability_map" "analysis_polynomial_map"
+  "polynomial" "horizontal" "vertical")
+(core-rule "stability_map" *analysis-states* "analysis/stability_map" "analysis_state_map"
+  "CharacteristicPolynomial" *analysis-lambda* "motion" *analysis-values* "horizontal" "vertical")
+(core-rule "map_axes" :any "analysis/stability_map" "analysis_map_axes" "horizontal" "vertical")
+(core-rule "map_theorems" :any "analysis/stability_map" "analysis_map_theorems" "Lagrangian"
+  "actions" *analysis-laws*)
+(core-rule "stability_map" *analysis-motions* "analysis/stability_map" "analysis_second_order_map"
+  "CharacteristicPolynomial" *analysis-lambda* "motion" *analysis-values* "map_axes"
+  "map_theorems")
+(core-rule "StabilityMap" :any "analysis/stability_map" "analysis_map_record" "stability_map")
+(core-rule "map_strips" :any "analysis/map_strips" "analysis_map_strips" "stability_map")
 
 ;;; Matrices and forms
 
@@ -383,22 +310,3 @@
            (rule '("matrices") "" "" "A" "variables")
            (rule '("pencil") "pencil_" "" "M" "S" "W" "variables")
            (rule *analysis-kinds* "" "_near" "FirstApproximation")))
-
-;;; A mixed potential as Lyapunov's function
-
-(core-public "BraytonMoser" :options '("where" "solution") :kinds '("circuit"))
-(core-rule "BraytonMoser" '("circuit") "analysis/brayton_moser" "analysis_brayton_moser"
-  "MixedPotential" "potential_stores" *analysis-where*)
-(core-rule-given "solution" "BraytonMoser" '("circuit") "analysis/brayton_moser_verdict"
-  "analysis_brayton_moser_judged" "MixedPotential" "potential_stores" *analysis-where* "motion")
-
-(core-public "PolynomialIntegrals"
-  :forms '(("equations" "equations" "degree"))
-  :trailing '("degree") :options '("where" "integrals") :kinds *analysis-states*)
-(loop for (kinds integrals) in `((,(remove "poisson" *analysis-states* :test #'string=)
-                                  ,*analysis-integrals*)
-                                 (("poisson") "poisson_integrals"))
-      do (core-rule "PolynomialIntegrals" kinds "analysis/polynomial_integrals"
-           "analysis_polynomial_integrals"
-           "state_equations" *analysis-variables* "degree" integrals
-           (list "level" *analysis-none*) "special_cases"))

@@ -31,15 +31,16 @@
   "circuits_parts_by_pairs" "circuit" "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
-(core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
+(core-rule "MixedPotential" '("circuit") "circuits/blocks" "circuits_potential_answer"
   "circuit" "network" "own_parts")
 
 (core-option :truth "solved" "matrices")
 (core-public "StateEquations"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
   :options '("solved" "matrices") :kinds '("circuit"))
-(core-rule "StateEquations" '("circuit") "circuits/solved_tableau" "circuits_tableau_answer"
-  "tableau" '("solved" nil) '("matrices" nil))
+(core-middle "state_system" '("circuit") "circuits/blocks" "circuits_state_system" "circuit")
+(core-rule "StateEquations" '("circuit") "circuits/blocks" "circuits_state_answer"
+  "state_system" '("solved" nil) '("matrices" nil))
 (loop for given in '("potential" (:edited "MixedPotential"))
       do (core-rule-given given "StateEquations" '("circuit") "circuits/state"
            "circuits_system_equations" "tableau" "network" "own_parts" "MixedPotential"
@@ -60,11 +61,10 @@
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
-(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed"
-  "circuit" "network")
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "circuit"
+  "network")
 
-(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian"
-  "circuit" "network" "tableau")
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian" "circuit")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")

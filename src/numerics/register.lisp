@@ -95,6 +95,8 @@
   :numerical t)
 (core-act "PhasePortrait" nil :any "numerics/phase_portrait" "numerics_phase_portrait" "picture"
   "portrait")
+(core-act "StabilityMap" nil :any "numerics/stability_map_plot" "numerics_stability_map" "picture"
+  "StabilityMap" "map_strips")
 
 ;;; Transfer functions on the axis s = i*w
 
