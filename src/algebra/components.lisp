@@ -1,12 +1,12 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
 ;;; Polynomials in unknowns, parameters in general position: the set where all of them vanish, taken
-;;; apart into components.  Of a Groebner basis by degrees the least element with several factors is
-;;; taken: there the first factor vanishes, or the second and not the first, and so on (the algorithm
-;;; of Buchberger with factors: Czapor; Graebe).  What does not vanish has an inverse, one variable z
-;;; with 1 - z*product = 0 that stays in the basis and is greater than all, so that the elements
-;;; without z are the ideal of the closure of the component: all of it solves the equations.  Where a
-;;; basis would cost too much the equations are left as they are.
+;;; apart into components.  Of a Groebner basis by degrees the least element with several factors
+;;; is taken: there the first factor vanishes, or the second and not the first, and so on (the
+;;; algorithm of Buchberger with factors: Czapor; Graebe).  What does not vanish has an inverse, one
+;;; variable z with 1 - z*product = 0 that stays in the basis and is greater than all, so that the
+;;; elements without z are the ideal of the closure of the component: all of it solves the
+;;; equations.  Where a basis would cost too much the equations are left as they are.
 
 (in-package :maxima)
 
@@ -40,7 +40,8 @@ sentence where there is too much."
              (components (algebra-components-of (butlast terms of-apart) (last terms of-apart)
                                                 kernels)))
         (flet ((expressions (basis)
-                 (cons '(mlist simp) (loop for p in basis collect (algebra-expression-of p kernels)))))
+                 (cons '(mlist simp)
+                       (loop for p in basis collect (algebra-expression-of p kernels)))))
           (list '(mlist simp)
                 (cons '(mlist simp)
                       (loop for (basis . dimension) in components
