@@ -109,6 +109,11 @@
                                 ("forces" "Q"))
       do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
 
+;;; What a picture of the graph shows
+
+(core-rule "structure_graph" '("circuit") "circuits/structure_graph" "circuits_structure_graph"
+  "circuit")
+
 ;;; SPICE netlists: written in each call
 
 (core-option :truth "replace")
