@@ -103,3 +103,41 @@ multiple or common roots."
         ((<= (ceiling low) high) (ceiling low))
         (t (let ((whole (floor low)))
              (+ whole (/ (algebra-simplest (/ (- high whole)) (/ (- low whole)))))))))
+
+;;; Bounds of roots, for strips of a plane
+
+(defun $algebra_roots_bounded (polynomials low high share)
+  "[[a, b], ..]: the roots between LOW and HIGH of POLYNOMIALS, lists of rational coefficients, one
+between each a and b, neither of which is a root; b - a is at most SHARE of the whole."
+  (destructuring-bind (low high share) (mapcar #'algebra-rational-number (list low high share))
+    (let* ((lists (list* (list 1 (- low)) (list 1 (- high))
+                         (loop for p in (cdr polynomials)
+                               collect (mapcar #'algebra-rational-number (cdr p)))))
+           (chain (algebra-sturm-chain
+                   (algebra-primitive (algebra-product-of-lists lists)))))
+      (cons '(mlist simp)
+            (loop for (a . b) in (algebra-bounds-apart
+                                  chain (algebra-apart chain (algebra-intervals-of-roots chain))
+                                  (* share (- high low)))
+                  when (< low a b high)
+                    collect (list '(mlist simp) (algebra-maxima-rational a)
+                                  (algebra-maxima-rational b)))))))
+
+(defun algebra-bounds-apart (chain intervals width)
+  "Not wider than WIDTH, no end of one a root."
+  (loop for interval in intervals
+        collect (loop while (> (- (cdr interval) (car interval)) width)
+                      do (setq interval (algebra-halved chain interval))
+                      finally (return (algebra-beyond-root chain interval)))))
+
+(defun algebra-beyond-root (chain interval)
+  "INTERVAL, whose right end may be its root, with an end a little further."
+  (destructuring-bind (low . high) interval
+    (if (zerop (algebra-sign-of-value (car chain) high))
+        (cons low (+ high (/ (- high low) 2)))
+        interval)))
+
+(defun $algebra_simple_within (low high)
+  "A rational number with a small denominator in the middle half between LOW and HIGH."
+  (algebra-maxima-rational (algebra-simple-within (algebra-rational-number low)
+                                                  (algebra-rational-number high))))

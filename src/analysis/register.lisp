@@ -205,6 +205,9 @@
       do (core-rule-given given "Stability" kinds "analysis/stability_by_form"
            "analysis_stability_hamilton" "hamilton_motion" "Hamiltonian" "actions"
            *analysis-laws*))
+(core-rule-given "integrals" "Stability" '("lagrangian") "analysis/phase_flow"
+  "analysis_stability_lagrangian_known"
+  "motion" "Lagrangian" "actions" *analysis-laws* "integrals")
 
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
@@ -222,6 +225,26 @@
       do (core-rule-given given "rest_points" kinds "analysis/rest_points"
            "analysis_rest_points_hamilton"
            "HamiltonEquations" "Hamiltonian" "actions" *analysis-values* *analysis-laws*))
+
+;;; A map of stability over two parameters
+
+(core-public "StabilityMap"
+  :forms '(("polynomial" "polynomial" "horizontal" "vertical"))
+  :trailing '("horizontal" "vertical")
+  :options (append '("values" "solution" "lambda" "file" "replace") *analysis-linear-options*)
+  :kinds *analysis-kinds*)
+(core-rule "stability_map" '("polynomial") "analysis/stability_map" "analysis_polynomial_map"
+  "polynomial" "horizontal" "vertical")
+(core-rule "stability_map" *analysis-states* "analysis/stability_map" "analysis_state_map"
+  "CharacteristicPolynomial" *analysis-lambda* "motion" *analysis-values* "horizontal" "vertical")
+(core-rule "map_axes" :any "analysis/stability_map" "analysis_map_axes" "horizontal" "vertical")
+(core-rule "map_theorems" :any "analysis/stability_map" "analysis_map_theorems" "Lagrangian"
+  "actions" *analysis-laws*)
+(core-rule "stability_map" *analysis-motions* "analysis/stability_map" "analysis_second_order_map"
+  "CharacteristicPolynomial" *analysis-lambda* "motion" *analysis-values* "map_axes"
+  "map_theorems")
+(core-rule "StabilityMap" :any "analysis/stability_map" "analysis_map_record" "stability_map")
+(core-rule "map_strips" :any "analysis/map_strips" "analysis_map_strips" "stability_map")
 
 ;;; Matrices and forms
 

@@ -24,7 +24,7 @@
                         collect (circuits-branch-voltage-row solution branch)))
             (part '$currents (mapcar #'circuits-branch-label branches)
                   (loop for branch in branches
-                        collect (circuits-branch-current-row circuit solution branch)))
+                        collect (circuits-branch-current-row solution branch)))
             (let ((nodes (circuits-described-nodes circuit)))
               (part '$potentials nodes
                     (loop for node in nodes
@@ -33,9 +33,6 @@
 (defun circuits-described-branches (circuit)
   "All but the sources of affine laws."
   (remove-if #'circuits-of-a-law-p (cdr (circuits-circuit-branches circuit))))
-
-(defun circuits-of-a-law-p (branch)
-  (and (eq (circuits-branch-type branch) '|$i|) (cdr (circuits-branch-control branch))))
 
 (defun circuits-described-nodes (circuit)
   (cdr ($circuits_nodes
@@ -63,27 +60,17 @@
    solution ($circuits_ends branch)
    (circuits-law-direction (circuits-solution-tableau solution) branch)))
 
-(defun circuits-branch-current-row (circuit solution branch)
+(defun circuits-branch-current-row (solution branch)
   (let* ((tableau (circuits-solution-tableau solution)) (row (circuits-new-row))
          (result (circuits-new-row)))
     (circuits-add-current tableau row
                           (circuits-branch-at tableau (circuits-branch-number branch)) 1)
-    (dolist (source (circuits-sources-of-law circuit branch))
-      (circuits-add-current tableau row source 1))
     (maphash (lambda (column x)
                (circuits-add-solved result column x (circuits-solution-solved solution)))
              row)
     (circuits-final-row solution result)))
 
-(defun circuits-sources-of-law (circuit branch)
-  "The source beside the resistor BRANCH of an affine law, in a list."
-  (remove-if-not (lambda (other)
-                   (and (circuits-of-a-law-p other)
-                        (eq (cadr (circuits-branch-control other))
-                            (circuits-branch-label branch))))
-                 (cdr (circuits-circuit-branches circuit))))
-
-(defun $circuits_tableau_windings (circuit solution)
+(defun $circuits_tableau_windings (solution)
   "[i_k = i_km - sum w*i_j, .., i_j = ..]: the currents of windings with k = 1 and of those that
 magnetize them."
   (let ((tableau (circuits-solution-tableau solution)))
@@ -94,7 +81,7 @@ magnetize them."
                   (circuits-expressed solution
                                       (loop for branch in (circuits-shorted-windings tableau)
                                             collect (circuits-branch-current-row
-                                                     circuit solution branch))))))))
+                                                     solution branch))))))))
 
 (defun circuits-shorted-windings (tableau)
   (loop for branch across (circuits-tableau-branches tableau)

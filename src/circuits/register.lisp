@@ -20,7 +20,8 @@
 (core-argument :formula "MixedPotential")
 (core-argument :branches "inductances" "capacitances")
 
-(core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
+(core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions"
+  "open_circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 
 (core-option :truth "pairs")
@@ -31,15 +32,16 @@
   "circuits_parts_by_pairs" "circuit" "network" "own_parts")
 
 (core-public "MixedPotential" :kinds '("circuit"))
-(core-rule "MixedPotential" '("circuit") "circuits/potential" "circuits_mixed_potential"
+(core-rule "MixedPotential" '("circuit") "circuits/blocks" "circuits_potential_answer"
   "circuit" "network" "own_parts")
 
 (core-option :truth "solved" "matrices")
 (core-public "StateEquations"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances"))
   :options '("solved" "matrices") :kinds '("circuit"))
-(core-rule "StateEquations" '("circuit") "circuits/solved_tableau" "circuits_tableau_answer"
-  "tableau" '("solved" nil) '("matrices" nil))
+(core-middle "state_system" '("circuit") "circuits/blocks" "circuits_state_system" "circuit")
+(core-rule "StateEquations" '("circuit") "circuits/blocks" "circuits_state_answer"
+  "state_system" '("solved" nil) '("matrices" nil))
 (loop for given in '("potential" (:edited "MixedPotential"))
       do (core-rule-given given "StateEquations" '("circuit") "circuits/state"
            "circuits_system_equations" "tableau" "network" "own_parts" "MixedPotential"
@@ -60,11 +62,10 @@
 (core-rule "PotentialRate" '("potential") "circuits/state" "circuits_potential_rate"
   "MixedPotential" "inductances" "capacitances")
 
-(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed"
-  "circuit" "network")
+(core-rule "potential_stores" '("circuit") "circuits/state" "circuits_stores_listed" "circuit"
+  "network")
 
-(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian"
-  "circuit" "network" "tableau")
+(core-rule "PortHamiltonian" '("circuit") "circuits/ports" "circuits_port_hamiltonian" "circuit")
 
 (core-public "CheckCircuit" :kinds '("circuit"))
 (core-rule "CheckCircuit" '("circuit") "circuits/check" "circuits_check" "circuit")
@@ -74,14 +75,13 @@
 (core-option :truth "poles")
 (core-argument :formula "output")
 (core-argument :variable "input")
-(core-rule "response" '("circuit") "circuits/transfer" "circuits_transfer_function"
-  "open_circuit" "output" "input")
-(core-rule "driving_point" '("circuit") "circuits/transfer" "circuits_impedance"
-  "open_circuit" "from_node" "to_node")
-(loop for (name quantity . trailing) in '(("TransferFunction" "response" "output" "input")
-                                          ("Impedance" "driving_point" "from_node" "to_node"))
+(loop for (name quantity function . trailing)
+        in '(("TransferFunction" "response" "circuits_transfer_function" "output" "input")
+             ("Impedance" "driving_point" "circuits_impedance" "from_node" "to_node"))
       do (core-public name :trailing trailing :options '("poles") :kinds '("circuit"))
-         (core-rule-same-as name '("circuit") quantity)
+         (dolist (made (list name quantity))
+           (apply #'core-rule made '("circuit") "circuits/transfer" function "open_circuit"
+                  trailing))
          (core-rule-given '("poles" t) name '("circuit") "circuits/transfer"
            "circuits_poles_and_zeros" quantity))
 
@@ -108,6 +108,11 @@
 (loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
                                 ("forces" "Q"))
       do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
+
+;;; What a picture of the graph shows
+
+(core-rule "structure_graph" '("circuit") "circuits/structure_graph" "circuits_structure_graph"
+  "circuit")
 
 ;;; SPICE netlists: written in each call
 

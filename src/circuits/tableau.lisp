@@ -16,6 +16,7 @@
   branches             ; a vector, that of number k at k - 1
   (columns (make-hash-table :test #'equal)) ; descriptor -> column
   (descriptors (make-array 64 :adjustable t :fill-pointer 0)) ; column -> descriptor
+  (law-sources (make-hash-table :test #'eq)) ; label of a resistor -> the source of its affine law
   (unknowns '())       ; columns
   (rows '()))
 
@@ -46,8 +47,19 @@
     tableau))
 
 (defun circuits-empty-tableau (circuit)
-  (make-circuits-tableau
-   :circuit circuit :branches (coerce (cdr (circuits-circuit-branches circuit)) 'vector)))
+  (let ((tableau (make-circuits-tableau
+                  :circuit circuit
+                  :branches (coerce (cdr (circuits-circuit-branches circuit)) 'vector))))
+    (loop for branch across (circuits-tableau-branches tableau)
+          do (when (circuits-of-a-law-p branch)
+               (setf (gethash (cadr (circuits-branch-control branch))
+                              (circuits-tableau-law-sources tableau))
+                     branch)))
+    tableau))
+
+(defun circuits-of-a-law-p (branch)
+  "Whether BRANCH is the source beside the resistor of an affine law, whose label controls it."
+  (and (eq (circuits-branch-type branch) '|$i|) (cdr (circuits-branch-control branch))))
 
 (defun circuits-type-in-p (branch &rest types)
   (member (circuits-branch-type branch) types))
@@ -162,9 +174,11 @@
         (|$o| (sensed-voltage 1))))))
 
 (defun circuits-add-current (tableau row branch factor)
-  "Adds FACTOR times the current of BRANCH as it is described: i_k = i_km - sum w*i_j where windings
-j are ideal and the inductor k magnetizes them."
+  "Adds FACTOR times the current of BRANCH as it is described: with that of the source of an affine
+law; i_k = i_km - sum w*i_j where windings j are ideal and the inductor k magnetizes them."
   (circuits-add-entry row (circuits-current-column tableau branch) factor)
+  (let ((source (gethash (circuits-branch-label branch) (circuits-tableau-law-sources tableau))))
+    (when source (circuits-add-entry row (circuits-current-column tableau source) factor)))
   (loop for winding in (cdr (circuits-circuit-ideal (circuits-tableau-circuit tableau)))
         for weight = ($circuits_entry (circuits-winding-weights winding)
                                       (circuits-branch-number branch))

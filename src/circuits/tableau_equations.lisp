@@ -183,10 +183,7 @@
 
 (defun $circuits_tableau_states (solution)
   "Names of the independent states."
-  (cons '(mlist simp)
-        (loop for k in (circuits-solution-states solution)
-              collect (circuits-branch-state
-                       (circuits-branch-at (circuits-solution-tableau solution) k)))))
+  (circuits-state-names solution (circuits-solution-states solution)))
 
 (defun $circuits_tableau_dependence (solution)
   "[dependent state = what it is, ..]"
@@ -232,3 +229,54 @@
                           differentiated more than once; ask for BranchQuantities, or give the ~
                           source's value"
                          n (first (circuits-labels-of solution (list column)))))))
+
+;;; The balances as what is stored and the forces, for what is made from both
+
+(defun $circuits_tableau_forces (solution)
+  "[X, ..], the right sides M x' = X."
+  (cons '(mlist simp)
+        (circuits-expressed solution (mapcar #'cddr (circuits-balances solution)))))
+
+(defun $circuits_tableau_stores (solution)
+  "The circuits-stores of SOLUTION; an error where a current and a voltage are stored together."
+  (let ((balances (circuits-balances solution)))
+    (flet ((of-type (type)
+             (remove-if-not (lambda (k)
+                              (eq type (circuits-branch-type
+                                        (circuits-branch-at (circuits-solution-tableau solution)
+                                                            k))))
+                            (circuits-solution-states solution))))
+      (let ((currents (of-type '|$l|)) (voltages (of-type '|$c|)))
+        (when (or (circuits-stored-across-p solution balances currents voltages)
+                  (circuits-stored-across-p solution balances voltages currents))
+          (core-error "currents and voltages store energy together in this circuit; it has no ~
+                       matrices of inductances and capacitances apart"))
+        (make-circuits-stores
+         :currents (circuits-state-names solution currents)
+         :inductance (circuits-stored-matrix solution balances currents)
+         :voltages (circuits-state-names solution voltages)
+         :capacitance (circuits-stored-matrix solution balances voltages))))))
+
+(defun circuits-state-names (solution numbers)
+  (cons '(mlist simp)
+        (loop for k in numbers
+              collect (circuits-branch-state
+                       (circuits-branch-at (circuits-solution-tableau solution) k)))))
+
+(defun circuits-stored-entry (solution balances k j)
+  "What the rate of the state of J counts in the balance of K."
+  (gethash (circuits-rate-column solution j) (cadr (assoc k balances)) 0))
+
+(defun circuits-stored-across-p (solution balances numbers others)
+  (loop for k in numbers
+        thereis (loop for j in others
+                      thereis (not (circuits-nothing-p
+                                    (circuits-stored-entry solution balances k j))))))
+
+(defun circuits-stored-matrix (solution balances numbers)
+  (cons '($matrix simp)
+        (loop for k in numbers
+              collect (cons '(mlist simp)
+                            (loop for j in numbers
+                                  collect (circuits-outside
+                                           (circuits-stored-entry solution balances k j)))))))

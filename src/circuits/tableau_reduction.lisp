@@ -232,7 +232,11 @@ tree keeps independent."
                                 (car (push (list factor) groups)))))
                  (push (mul sign (circuits-given solution column)) (cdr group)))))
     (addn (loop for (factor . terms) in groups
-                append (if (eql factor 1) terms (list (mul factor (addn terms nil)))))
+                append (cond ((eql factor 1) terms)
+                             ((and (algebra-rational-number factor)
+                                   (some #'algebra-rational-number terms))
+                              (mapcar (lambda (term) (mul factor term)) terms))
+                             (t (list (mul factor (addn terms nil))))))
           nil)))
 
 (defun circuits-factor-and-sign (x)

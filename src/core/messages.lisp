@@ -28,9 +28,9 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
     (unwind-protect
          (progn
            (setf (get 'mminus 'rbp) 100)
-           (apply #'concatenate 'string
-                  (mapcar (lambda (item) (if (stringp item) item (coerce (mstring item) 'string)))
-                          items)))
+           (with-output-to-string (text)
+             (dolist (item items)
+               (write-string (if (stringp item) item (coerce (mstring item) 'string)) text))))
       (setf (get 'mminus 'rbp) bound))))
 
 (defun core-cut (text)

@@ -38,13 +38,6 @@
 
 ;;; The drawing
 
-(defparameter *numerics-marks*
-  '(("asymptotically stable" $filled_circle "#117733")
-    ("stable" $filled_diamant "#332288")
-    ("unstable" $circle "#cc3311")
-    ("not decided" $square "#555555"))
-  "Each row: a verdict, its sign and colour.")
-
 (defun numerics-in-window (plane places)
   (let ((axes (numerics-plane-axes plane)))
     (loop for place in places collect (mapcar #'numerics-at-place axes place))))

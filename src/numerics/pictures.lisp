@@ -31,6 +31,13 @@
 
 ;;; Items of a drawing, Maxima expressions
 
+(defparameter *numerics-marks*
+  '(("asymptotically stable" $filled_circle "#117733")
+    ("stable" $filled_diamant "#332288")
+    ("unstable" $circle "#cc3311")
+    ("not decided" $square "#555555"))
+  "Each row: a verdict, its sign and colour.")
+
 (defun numerics-option (name value) (list '(mequal simp) name value))
 
 (defun numerics-points (places)
