@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2563882146 124713
+;;; Made by tools/doc; checksum of doc/*.texi: 1470205229 124713
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
