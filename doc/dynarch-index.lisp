@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 157504968 124922
+;;; Made by tools/doc; checksum of doc/*.texi: 1651245947 124922
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
