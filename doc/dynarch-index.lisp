@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 1733896574 124626
+;;; Made by tools/doc; checksum of doc/*.texi: 2604112857 124626
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
