@@ -178,7 +178,7 @@ sentence where there is too much."
     (if (and (null (cdr factors))
              (equal (algebra-lead (car factors)) (algebra-lead p)))
         nil
-        (algebra-sorted-polynomials factors))))
+        (algebra-sorted-polynomials (reverse factors)))))
 
 (defun algebra-polynomial-of-terms (p kernels)
   "P, free of z, as a polynomial of Maxima."
