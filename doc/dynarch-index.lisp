@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 3364125155 125599
+;;; Made by tools/doc; checksum of doc/*.texi: 4236481235 125599
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
