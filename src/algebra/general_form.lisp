@@ -92,7 +92,7 @@
   (let ((variables nil))
     (labels ((walk (p)
                (unless (atom p)
-                 (pushnew (car p) variables :test #'eq)
+                 (unless (member (car p) variables :test #'eq) (push (car p) variables))
                  (loop for (nil coefficient) on (cdr p) by #'cddr do (walk coefficient)))))
       (walk p))
     variables))
@@ -118,20 +118,19 @@
 
 (defun algebra-ordered-terms (p)
   "Its terms in order: the greatest variable is outermost, terms share the factors behind."
-  (let ((terms '()) (factors (make-hash-table :test #'eq)))
-    (labels ((factor (variable exponent)
-               (algebra-factor (or (gethash variable factors)
-                                   (setf (gethash variable factors)
-                                         (algebra-factor-table variable)))
-                               exponent))
+  (let ((terms '()) (tables (make-hash-table :test #'eq)))
+    (labels ((table (variable)
+               (or (gethash variable tables)
+                   (setf (gethash variable tables) (algebra-factor-table variable))))
              (walk (p behind)
                (if (atom p)
                    (push (algebra-monomial-expression p behind) terms)
-                   (loop for (exponent coefficient) on (cdr p) by #'cddr
+                   (loop with table = (table (car p))
+                         for (exponent coefficient) on (cdr p) by #'cddr
                          do (walk coefficient
                                   (if (eql exponent 0)
                                       behind
-                                      (cons (factor (car p) exponent) behind)))))))
+                                      (cons (algebra-factor table exponent) behind)))))))
       (walk p '()))
     terms))
 

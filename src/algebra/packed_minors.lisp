@@ -31,11 +31,21 @@ are not single terms or their monomials are too long."
                      (<= (* bits (length variables)) 60)
                      (mapcar (lambda (a) (algebra-packed-term a variables bits)) coefficients))))
     (and terms
-         (loop with known = (make-hash-table :test #'eql)
-               for k from 1 to n
-               collect (algebra-unpacked
-                        (algebra-packed-minor k (algebra-all-of k) (coerce terms 'vector) known)
-                        variables bits)))))
+         (loop for minor in (algebra-packed-leading n (coerce terms 'vector))
+               collect (algebra-unpacked minor variables bits)))))
+
+(defun algebra-packed-leading (n terms)
+  "The last one is a_n times that before it."
+  (let* ((known (make-hash-table :test #'eql))
+         (minors (loop for k from 1 to (max 1 (1- n))
+                       collect (algebra-packed-minor k (algebra-all-of k) terms known)))
+         (last (aref terms n)))
+    (append minors
+            (and (> n 1)
+                 (list (if (eql 0 (cdr last))
+                           (algebra-packed-room 0)
+                           (algebra-packed-sum (algebra-packed-room 0) (car last) (cdr last)
+                                               (car (last minors)))))))))
 
 (defun algebra-packed-variables (coefficients)
   "From low to high in the order of the ring."

@@ -31,8 +31,10 @@
              (mplus (algebra-residue-sum (cdr e) values))
              (mtimes (algebra-residue-product (cdr e) values))
              (rat (algebra-rational-residue (/ (cadr e) (caddr e))))
-             (mexpt (algebra-power-residue (algebra-expression-residue (cadr e) values)
-                                           (caddr e)))
+             (mexpt (or (gethash e values) ; one power stands in many terms
+                        (setf (gethash e values)
+                              (algebra-power-residue
+                               (algebra-expression-residue (cadr e) values) (caddr e)))))
              (t (throw 'no-residue nil))))))
 
 (defun algebra-residue-sum (parts values)
