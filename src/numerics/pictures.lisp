@@ -52,10 +52,10 @@
   (let ((cut (if (> (length text) *numerics-longest-text*)
                  (concatenate 'string (subseq text 0 (- *numerics-longest-text* 3)) "...")
                  text)))
-    (apply #'concatenate 'string
-           (loop for letter across cut
-                 when (char= letter #\') collect "'"
-                 when (char>= letter #\Space) collect (string letter)))))
+    (with-output-to-string (out)
+      (loop for letter across cut
+            do (when (char= letter #\') (write-char letter out))
+               (when (char>= letter #\Space) (write-char letter out))))))
 
 (defun numerics-gnuplot-text (text)
   "TEXT in the quotes of gnuplot."

@@ -13,25 +13,28 @@
 (defun $numerics_draw_structure (picture graph)
   "Draws GRAPH = [nodes, branches, transformers, loops] and returns the name of the file, or done."
   (destructuring-bind (nodes branches transformers loops) (mapcar #'cdr (cdr graph))
-    (let* ((ends (loop for (nil nil a b) in branches collect (list (1- a) (1- b))))
-           (places (numerics-placed-nodes (length nodes)
-                                          (append ends
-                                                  (loop for (nil a b) in transformers
-                                                        collect (list (1- a) (1- b)))))))
+    (let* ((ends (numerics-end-numbers branches))
+           (joined (loop for (nil a b) in transformers collect (list (1- a) (1- b))))
+           (places (numerics-placed-nodes (length nodes) (append ends joined))))
       (or (numerics-draw picture
-                         (cons (numerics-structure-preamble loops)
-                               (append (numerics-branch-items branches ends places)
-                                       (numerics-transformer-items transformers places)
-                                       (numerics-node-items nodes places))))
+                         (cons (format nil "~a~{~a~%~}" (numerics-structure-preamble loops)
+                                       (append (numerics-branch-lines branches ends places)
+                                               (numerics-transformer-lines joined places)
+                                               (numerics-node-labels nodes places)))
+                               (numerics-node-items places)))
           '$done))))
 
+(defun numerics-end-numbers (branches)
+  (loop for (nil nil a b) in branches collect (list (1- a) (1- b))))
+
 (defun numerics-structure-preamble (loops)
-  (format nil "set title ~a noenhanced~%unset border~%unset xtics~%unset ytics~%set key outside ~
-               top center horizontal~%set size ratio -1~%set offsets 0.1,0.1,0.1,0.1~%"
+  (format nil "set title ~a noenhanced~%unset border~%unset xtics~%unset ytics~%unset key~%~
+               set size ratio -1~%set offsets graph 0.1,graph 0.1,graph 0.1,graph 0.1~%"
           (numerics-gnuplot-text
            (if loops
-               (format nil "loops: ~{~a~^, ~}" (mapcar (lambda (e) (core-words (list e))) loops))
-               "no loops"))))
+               (format nil "tree: thick; loops: ~{~a~^, ~}"
+                       (mapcar (lambda (e) (core-words (list e))) loops))
+               "tree: thick; no loops"))))
 
 ;;; Places of the nodes
 
@@ -77,45 +80,40 @@
          (dy (- (second (aref places b)) (second (aref places a)))))
     (list dx dy (max 1d-3 (sqrt (+ (* dx dx) (* dy dy)))))))
 
-;;; Items
+;;; Lines of gnuplot: arrows, with a head in the middle of a branch, and labels. (GCL takes at most
+;;; 64 objects of draw.)
 
-(defun numerics-branch-items (branches ends places)
-  (let ((met (make-hash-table :test #'equal)) (named '()))
-    (loop for (nil label nil nil in-tree) in branches
-          for pair in ends
-          for key = (sort (copy-list pair) #'<)
-          for count = (count key ends :test #'equal
-                                      :key (lambda (one) (sort (copy-list one) #'<)))
-          for place = (- (incf (gethash key met 0)) (/ (1+ count) 2))
-          for bend = (* 0.09d0 place (if (equal key pair) 1 -1))
-          for first = (not (member in-tree named))
-          do (when first (push in-tree named))
-          append (numerics-branch-item places pair bend label in-tree first))))
+(defun numerics-branch-lines (branches ends places)
+  (let ((met (make-hash-table :test #'equal)))
+    (flet ((key (pair) (sort (copy-list pair) #'<)))
+      (loop for (nil label nil nil in-tree) in branches
+            for pair in ends
+            for count = (count (key pair) ends :test #'equal :key #'key)
+            for place = (- (incf (gethash (key pair) met 0)) (/ (1+ count) 2))
+            for bend = (* 0.09d0 place (if (equal (key pair) pair) 1 -1))
+            append (numerics-branch-line
+                    (numerics-bent-line places (first pair) (second pair) bend)
+                    label in-tree)))))
 
-(defun numerics-branch-item (places pair bend label in-tree named)
-  (let* ((points (numerics-bent-line places (first pair) (second pair) bend))
-         (middle (nth (floor (length points) 2) points))
-         (before (nth (1- (floor (length points) 2)) points)))
-    (list (numerics-option '$points_joined t)
-          (numerics-option '$point_type '$none)
-          (numerics-option '$color (if in-tree "#1f4e9a" "#808080"))
-          (numerics-option '$line_width (if in-tree 3 1))
-          (numerics-option '$line_type (if in-tree '$solid '$dashes))
-          (numerics-option '$key (cond ((not named) "") (in-tree "tree") (t "links")))
-          (numerics-points points)
-          (numerics-option '$key "")
-          (numerics-option '$line_type '$solid)
-          (numerics-option '$head_length 0.03d0)
-          (numerics-option '$head_angle 20)
-          (list '($vector simp) (cons '(mlist simp) before)
-                (list '(mlist simp) (- (first middle) (first before))
-                      (- (second middle) (second before))))
-          (numerics-option '$color '$black)
-          (numerics-text-item (core-words (list label)) (first middle)
-                              (+ 0.035d0 (second middle))))))
+(defun numerics-branch-line (points label in-tree)
+  (let ((middle (floor (length points) 2))
+        (style (if in-tree "lc rgb '#1f4e9a' lw 3" "lc rgb '#808080' lw 1 dt 2")))
+    (append (loop for (one other) on points
+                  for k from 1
+                  while other
+                  collect (numerics-arrow-line
+                           one other
+                           (format nil "~:[nohead~;head filled size screen 0.015,20~] ~a"
+                                   (= k middle) style)))
+            (list (numerics-label-line (core-words (list label)) (nth middle points) 0.035d0)))))
 
-(defun numerics-text-item (text x y)
-  (list '(%label simp) (list '(mlist simp) (substitute #\Space #\_ text) x y)))
+(defun numerics-arrow-line (one other style)
+  (format nil "set arrow from ~,4f,~,4f to ~,4f,~,4f ~a" (first one) (second one) (first other)
+          (second other) style))
+
+(defun numerics-label-line (text place above)
+  (format nil "set label ~a at ~,4f,~,4f center front noenhanced" (numerics-gnuplot-text text)
+          (first place) (+ above (second place))))
 
 (defun numerics-bent-line (places a b bend)
   "Points from node A to node B, bent to the left by BEND; a circle where they are one node."
@@ -131,21 +129,27 @@
                 collect (list (- (+ x (* s dx)) (* side (/ dy distance)))
                               (+ y (* s dy) (* side (/ dx distance)))))))))
 
-(defun numerics-transformer-items (transformers places)
-  (loop for (nil a b) in transformers
-        append (list (numerics-option '$points_joined t)
-                     (numerics-option '$point_type '$none)
-                     (numerics-option '$color "#b05010")
-                     (numerics-option '$line_width 1)
-                     (numerics-option '$line_type '$dots)
-                     (numerics-points (list (aref places (1- a)) (aref places (1- b)))))))
+(defun numerics-transformer-lines (joined places)
+  (loop for (a b) in joined
+        collect (numerics-arrow-line (aref places a) (aref places b)
+                                     "nohead lc rgb '#b05010' lw 1 dt 3")))
 
-(defun numerics-node-items (nodes places)
-  (append (list (numerics-option '$points_joined nil)
-                (numerics-option '$point_type '$filled_circle)
-                (numerics-option '$point_size 1.2d0)
-                (numerics-option '$color '$black)
-                (numerics-points (coerce places 'list)))
-          (loop for node in nodes
-                for (x y) across places
-                collect (numerics-text-item (core-words (list node)) (- x 0.03d0) (- y 0.04d0)))))
+(defun numerics-node-labels (nodes places)
+  (loop for node in nodes
+        for place across places
+        collect (numerics-label-line (core-words (list node)) place -0.045d0)))
+
+(defun numerics-node-items (places)
+  "The nodes, and before them two corners that leave room for labels."
+  (list (numerics-option '$point_type '$dot)
+        (numerics-option '$color '$white)
+        (numerics-points (list (numerics-corner #'min places -0.12d0)
+                               (numerics-corner #'max places 0.12d0)))
+        (numerics-option '$point_type '$filled_circle)
+        (numerics-option '$point_size 1.2d0)
+        (numerics-option '$color '$black)
+        (numerics-points (coerce places 'list))))
+
+(defun numerics-corner (choose places margin)
+  (flet ((side (part) (+ margin (reduce choose (map 'vector part places)))))
+    (list (side #'first) (side #'second))))
