@@ -14,7 +14,7 @@
 
 (in-package :maxima)
 
-(core-require "circuits/branch_quantities" "circuits/check" "circuits/circuit"
+(core-require "circuits/branch_quantities" "circuits/check" "circuits/circuit" "circuits/order"
               "circuits/solved_tableau" "circuits/symmetric_potential" "circuits/tableau_matrices"
               "circuits/transfer")
 
@@ -133,7 +133,7 @@ capacitor, a loop of source and capacitor, a cut of source and inductor."
            (append (list tail head (fuzz-name type))
                    (cond ((eq type :o) '())
                          ((and moving (member type '(:e :i))) (list (fuzz-source row)))
-                         (t (list (fuzz-number value))))
+                         (t (list (if (numberp value) (fuzz-number value) value))))
                    control)))))
 
 (defun fuzz-description (circuit moving)
@@ -493,6 +493,52 @@ inductors and minus the currents of capacitors."
                                       (fuzz-voltage solution row)
                                       (- (fuzz-current solution row)))))))))))
 
+;;; One value is a letter: the order is lower, or nothing is determined, exactly where the factors
+;;; that CheckCircuit names vanish
+
+(defun fuzz-with-value (circuit label value)
+  (let ((copy (copy-fuzz-circuit circuit)))
+    (setf (fuzz-circuit-rows copy)
+          (loop for row in (fuzz-circuit-rows circuit)
+                collect (if (eq (fuzz-row-label row) label)
+                            (append (subseq row 0 4) (list value) (fuzz-row-control row))
+                            row)))
+    copy))
+
+(defun fuzz-drop-fault (circuit)
+  (let ((row (find-if (lambda (row) (member (fuzz-row-type row) '(:ev :g :f :h :r)))
+                      (fuzz-shuffled (fuzz-circuit-rows circuit)))))
+    (when row
+      (multiple-value-bind (tableau text)
+          (fuzz-tried (lambda ()
+                        (mfuncall '$circuits_solved_tableau
+                                  (mfuncall '$circuits_read_circuit
+                                            (fuzz-description
+                                             (fuzz-with-value circuit (fuzz-row-label row)
+                                                              '$letter)
+                                             t)))))
+        (unless text
+          (let ((order (length (cdr ($circuits_tableau_states tableau))))
+                (factors (cdr ($circuits_order_drops tableau))))
+            (loop for x in (append '(1 -1 2 -2 1/2 -1/2 3 -3) (fuzz-roots factors))
+                  for lower = (< (fuzz-degree (fuzz-with-value circuit (fuzz-row-label row) x))
+                                 order)
+                  for named = (some (lambda (e)
+                                      (eql 0 (maxima-substitute (fuzz-number x) '$letter e)))
+                                    factors)
+                  unless (or (zerop x) (eq (and lower t) (and named t)))
+                    return (format nil "order ~d, ~a = ~a: lower ~a, named ~a by ~a" order
+                                   (fuzz-row-label row) x lower named factors))))))))
+
+(defun fuzz-roots (factors)
+  "The roots of those that are linear."
+  (loop for e in factors
+        when (eql 1 ($hipow ($expand e) '$letter))
+          collect (- (/ (algebra-rational-number (maxima-substitute 0 '$letter e))
+                        (algebra-rational-number
+                         (sub (maxima-substitute 1 '$letter e)
+                              (maxima-substitute 0 '$letter e)))))))
+
 ;;; The same circuit told otherwise
 
 (defun fuzz-shuffled (items)
@@ -532,6 +578,7 @@ their sources and the mutual inductances with the other sign."
 (defun fuzz-circuit-fault (circuit)
   (or (fuzz-fault circuit t)
       (fuzz-fault circuit nil)
+      (fuzz-drop-fault circuit)
       (let ((other (fuzz-told-otherwise circuit)))
         (cond ((/= (fuzz-degree circuit) (fuzz-degree other)) "the adversary itself is wrong")
               (t (let ((fault (fuzz-fault other t)))

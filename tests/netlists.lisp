@@ -46,6 +46,20 @@
                   when (netlist-fault-p (netlist-answer changed))
                     collect (list '(mlist) (netlist-answer changed) changed))))))
 
+;;; As an adversary
+
+(defparameter *netlist-whole*
+  '((mlist) "a title" ".param R0=1k C0={2*1u}" "V1 in 0 DC 1 AC 1 SIN(0 {R0/1k} 1k 1m 2 30)"
+    "R1 IN a/b {R0*2}" "C1 a/b 0 'C0' IC=0.5" "L1 a/b" "+ 0_1 10mH ; comment" "* a comment"
+    "r2 0_1 gnd 4.7MEGohm $ another" "D1 a/b 0 DM 2" ".model dm D(IS=1e-14 N=1.5)"
+    "Xa in out divider params: ra=5k" "B1 out 0 I={V(out)*V(out)*V(out)/1MEG + pow(v(out),2)}"
+    "Cx out 0 1n" "L2 out 0 1m" "K1 L1 L2 0.9" "E1 p 0 in out 2" "Rp p 0 1" "F1 q 0 V1 2" "Rq q 0 1"
+    "I1 q 0 PULSE(0 1 1m 1u 1u 2m)" "I2 q 0 PWL(0 0 1m {R0/1k})" "I3 q 0 EXP(0 1 0 1m 2m 1m)"
+    ".subckt divider p q params: ra=1k rb={2*ra}" "Rtop p q {ra}" "Rbot q 0 rb" ".ends"
+    ".ic v(q)=1" ".tran 1u 1m uic" ".print tran v(out)" ".end"))
+
+(defun $fuzz_netlists (count seed) ($netlist_faults_of_changes *netlist-whole* count seed))
+
 ;;; Files and runs
 
 (defun $netlist_description (lines)

@@ -1,12 +1,12 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
 ;;; Polynomials in unknowns, parameters in general position: the set where all of them vanish, taken
-;;; apart into components.  Of a Groebner basis by degrees the least element with several factors is
-;;; taken: there the first factor vanishes, or the second and not the first, and so on (the algorithm
-;;; of Buchberger with factors: Czapor; Graebe).  What does not vanish has an inverse, one variable z
-;;; with 1 - z*product = 0 that stays in the basis and is greater than all, so that the elements
-;;; without z are the ideal of the closure of the component: all of it solves the equations.  Where a
-;;; basis would cost too much the equations are left as they are.
+;;; apart into components.  Of a Groebner basis by degrees the least element with several factors
+;;; is taken: there the first factor vanishes, or the second and not the first, and so on (the
+;;; algorithm of Buchberger with factors: Czapor; Graebe).  What does not vanish has an inverse, one
+;;; variable z with 1 - z*product = 0 that stays in the basis and is greater than all, so that the
+;;; elements without z are the ideal of the closure of the component: all of it solves the
+;;; equations.  Where a basis would cost too much the equations are left as they are.
 
 (in-package :maxima)
 
@@ -40,7 +40,8 @@ sentence where there is too much."
              (components (algebra-components-of (butlast terms of-apart) (last terms of-apart)
                                                 kernels)))
         (flet ((expressions (basis)
-                 (cons '(mlist simp) (loop for p in basis collect (algebra-expression-of p kernels)))))
+                 (cons '(mlist simp)
+                       (loop for p in basis collect (algebra-expression-of p kernels)))))
           (list '(mlist simp)
                 (cons '(mlist simp)
                       (loop for (basis . dimension) in components
@@ -60,7 +61,7 @@ sentence where there is too much."
              (let* ((branch (pop waiting))
                     (grown (catch 'algebra-too-large (algebra-basis-of-branch branch))))
                (cond ((eq grown 'too-large)
-                      (push (list (algebra-given-equations branch)) components)
+                      (push (list nil (algebra-given-equations branch)) components)
                       (setq *algebra-work-left* (floor work 4)))
                      (t (let* ((basis (algebra-branch-elements grown))
                                (factors (algebra-factors-in basis kernels)))
@@ -68,17 +69,25 @@ sentence where there is too much."
                               (setq waiting (append (algebra-branches-by factors grown) waiting))
                               (let ((component (algebra-component basis (length kernels))))
                                 (when component (push component components)))))))))
-    (nreverse components)))
+    (mapcar #'cdr (algebra-not-contained (nreverse components)))))
+
+(defun algebra-not-contained (components)
+  "(basis generators . dimension) of those that lie in no other of a higher dimension."
+  (flet ((contained-p (a b)
+           (and (cddr a) (cddr b) (< (cddr a) (cddr b))
+                (notany (lambda (p) (algebra-divided-rest p (first a))) (second b)))))
+    (loop for a in components
+          unless (some (lambda (b) (contained-p a b)) components) collect a)))
 
 (defun algebra-given-equations (branch)
   (remove-if-not #'algebra-free-of-z-p
                  (append (algebra-branch-elements branch) (algebra-branch-new branch))))
 
 (defun algebra-component (basis n)
-  "(generators . dimension) of the closure; nil where it is empty."
+  "(basis generators . dimension) of the closure; nil where it is empty."
   (let ((closure (remove-if-not #'algebra-free-of-z-p basis)))
     (unless (algebra-everywhere-nonzero-p closure)
-      (cons (algebra-ideal-generators closure) (algebra-dimension closure n)))))
+      (list* closure (algebra-ideal-generators closure) (algebra-dimension closure n)))))
 
 (defun algebra-first-branch (polynomials apart count)
   (let ((one (list (cons (make-list (1+ count) :initial-element 0) 1))))
@@ -169,7 +178,7 @@ sentence where there is too much."
     (if (and (null (cdr factors))
              (equal (algebra-lead (car factors)) (algebra-lead p)))
         nil
-        (algebra-sorted-polynomials factors))))
+        (algebra-sorted-polynomials (reverse factors)))))
 
 (defun algebra-polynomial-of-terms (p kernels)
   "P, free of z, as a polynomial of Maxima."

@@ -2,8 +2,8 @@
 ;;;
 ;;; Intervals that surely hold a number: [lo, hi]/2^bits with integers lo <= hi, rounded outwards.
 ;;; Constants with roots, %pi, exponentials, logarithms and angles are enclosed; more bits make the
-;;; interval shorter until the sign separates.  A zero is never proved here, only refused.
-;;; algebra-i makes an interval of a rational; algebra-i+, -, *, / are the arithmetic.
+;;; interval shorter until the sign separates.  A zero is never proved here.  algebra-i makes an
+;;; interval of a rational; algebra-i+, -, *, / are the arithmetic.
 
 (in-package :maxima)
 
@@ -13,8 +13,7 @@
 (defvar *algebra-interval-bits* 64)
 (defvar *algebra-point* nil "values of symbols and open functions: (expression . rational), ..")
 (defvar *algebra-dummies* '() "intervals of dummy variables: (name . interval), ..")
-(defvar *algebra-coordinate* nil
-  "function that gives a symbol or open function its value; nil: constants only")
+(defvar *algebra-coordinate* nil "function: symbol or open function -> value; nil: constants only")
 
 (defun algebra-interval-sign-among (e widths)
   (loop for bits in widths
@@ -47,7 +46,7 @@
 (defun algebra-i-function (e)
   (let ((x (and (cdr e) (null (cddr e)) (cadr e))))
     (case (and (or x (algebra-real-root-p e)) (caar e))
-      (|$RealRoot| (algebra-i-real-root (cdadr e) (caddr e)))
+      (|$RealRoot| (algebra-scaled-root (cdadr e) (caddr e) *algebra-interval-bits*))
       (%sin (cdr (algebra-i-angle (algebra-i-of x))))
       (%cos (car (algebra-i-angle (algebra-i-of x))))
       (%tan (algebra-i-tangent (algebra-i-angle (algebra-i-of x))))
@@ -65,10 +64,6 @@
                          (algebra-i-asin (algebra-i-of x))))
       (mabs (algebra-i-abs (algebra-i-of x)))
       (t (algebra-i-noun e)))))
-
-(defun algebra-i-real-root (p k)
-  (destructuring-bind (low . high) (algebra-root-enclosure p k (+ 2 *algebra-interval-bits*))
-    (cons (car (algebra-i low)) (cdr (algebra-i high)))))
 
 (defun algebra-i-noun (e)
   "By its value; else an integral by parts of the interval, an open function as it is given."

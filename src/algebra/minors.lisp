@@ -121,6 +121,19 @@ where there are no products.  ROW takes from a set of rows the one to expand by.
       (setq previous (aref a k k)))
     (ptimes sign (aref a (1- n) (1- n)))))
 
+(defun algebra-eliminated-leading-minors (matrix)
+  "The pivots where no rows change places; nil where one vanishes before the last."
+  (let* ((n (array-dimension matrix 0)) (a (algebra-copy-array matrix)) (previous 1)
+         (minors (list (aref a 0 0))))
+    (dotimes (k (1- n) (nreverse minors))
+      (when (algebra-zero-polynomial-p (aref a k k))
+        (return-from algebra-eliminated-leading-minors nil))
+      (loop for i from (1+ k) below n
+            do (loop for j from (1+ k) below n
+                     do (setf (aref a i j) (algebra-bareiss-entry a i j k previous))))
+      (setq previous (aref a k k))
+      (push (aref a (1+ k) (1+ k)) minors))))
+
 (defun algebra-bareiss-entry (a i j k previous)
   (pquotient (pdifference (algebra-guarded-times (aref a i j) (aref a k k))
                           (algebra-guarded-times (aref a i k) (aref a k j)))
@@ -176,7 +189,9 @@ where there are no products.  ROW takes from a set of rows the one to expand by.
     (let ((rows (algebra-matrix-quotients m)) (denominator 1))
       (multiple-value-bind (matrix) (algebra-clear-rows rows)
         (cons '(mlist simp)
-              (loop for minor in (algebra-leading-minor-polynomials matrix)
+              (loop for minor in (or (and (algebra-eliminate-p matrix)
+                                          (algebra-eliminated-leading-minors matrix))
+                                     (algebra-leading-minor-polynomials matrix))
                     for row in rows
                     do (setq denominator
                              (ptimes denominator

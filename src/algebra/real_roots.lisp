@@ -1,9 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
 ;;; RealRoot([a0, .., an], k), the k-th real root from below of a0*x^n + .. + an with whole numbers,
-;;; an exact constant where no formula gives the root.  It is isolated by Sturm's chain; the interval
-;;; is made smaller by quadratic interval refinement (J. Abbott, Quadratic interval refinement for
-;;; real roots, 2006) as far as a sign needs it.  float and bfloat give its value.
+;;; an exact constant where no formula gives the root.  It is isolated by Sturm's chain; the
+;;; interval is made smaller by quadratic interval refinement (J. Abbott, Quadratic interval
+;;; refinement for real roots, 2006) as far as a sign needs it.  float and bfloat give its value.
 
 (in-package :maxima)
 
@@ -79,6 +79,12 @@
          (finer (apply #'algebra-refined-root (append known (list bits)))))
     (setf (gethash key *algebra-root-enclosures*) (cons (first known) finer))
     (cons (first finer) (second finer))))
+
+(defun algebra-scaled-root (p k bits)
+  "Whole numbers (low . high) with the root between them, in units of 2^-BITS."
+  (destructuring-bind (low . high) (algebra-root-enclosure p k (+ 2 bits))
+    (cons (- (values (ceiling (- (* low (ash 1 bits))))))
+          (values (ceiling (* high (ash 1 bits)))))))
 
 (defun algebra-isolated-root (p k)
   "(square-free p, low, high); P has no root at LOW, and one up to HIGH, the K-th."

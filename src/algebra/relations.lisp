@@ -1,8 +1,9 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;;
-;;; Polynomials in kernels modulo their relations: s^2 = 1 - c^2 for each angle, kernel^n = radicand
-;;; for each root, p(kernel) = 0 for RealRoot(p, k).  With s below the second degree and each root below its degree the remainder
-;;; is unique; it vanishes exactly when the polynomial vanishes (angles; for roots see zero.lisp).
+;;; Polynomials in kernels modulo their relations: s^2 = 1 - c^2 for each angle, kernel^n =
+;;; radicand for each root, p(kernel) = 0 for RealRoot(p, k).  With s below the second degree and
+;;; each root below its degree the remainder is unique; it vanishes exactly when the polynomial
+;;; vanishes (angles; for roots see zero.lisp).
 
 (in-package :maxima)
 

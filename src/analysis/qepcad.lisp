@@ -40,7 +40,8 @@ conditions e > 0, .. with polynomials e."
           (substitute #\Space #\*
                       (analysis-plain-text
                        (sublis (loop for (name . text) in names
-                                     collect (cons name (make-symbol (format nil "$~:@(~a~)" text))))
+                                     collect (cons name (make-symbol
+                                                         (format nil "$~:@(~a~)" text))))
                                ($expand (second c)))))
           (ecase (caar c)
             (mgreaterp ">") (mgeqp ">=") (mequal "=") ($notequal "/="))))

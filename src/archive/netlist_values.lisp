@@ -184,12 +184,12 @@ name in small letters, gives the text of its value."
 
 (defun archive-net-value (field scope)
   "As archive-net-text, of a field that must begin like a value."
-  (unless (and (plusp (length field))
-               (or (find (char field 0) "{+-.") (digit-char-p (char field 0))
-                   (archive-letter-p (char field 0))))
-    (archive-net-fault "found `~a', expected a value" (archive-shown field)))
-  (archive-net-text (string-left-trim "+" field)
-                    (lambda (name) (archive-net-parameter name scope))))
+  (let ((bare (string-left-trim "+" field)))
+    (unless (and (plusp (length bare))
+                 (or (find (char bare 0) "{-.") (digit-char-p (char bare 0))
+                     (archive-letter-p (char bare 0))))
+      (archive-net-fault "found `~a', expected a value" (archive-shown field)))
+    (archive-net-text bare (lambda (name) (archive-net-parameter name scope)))))
 
 ;;; Parameters
 

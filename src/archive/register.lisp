@@ -162,7 +162,7 @@
       ("archive/circuit_rows" archive-parse-transformer))))
   :instead "graph"
   :completed '("archive/circuit_names" archive-circuit-completed)
-  :gives '("Lagrangian" ("state_equations" "StateEquations")))
+  :gives '("Lagrangian" ("state_equations" "StateEquations") "structure_graph"))
 
 (core-kind "equations" "equations of motion of the first order"
   :first

@@ -62,6 +62,40 @@ or false where something in it is to be looked at."
 
 (defun circuits-name-p (e) (and e (symbolp e) (not (eq e t))))
 
+;;; States without a name of their own
+
+(defun circuits-store-p (branch) (member (circuits-branch-type branch) '(|$l| |$c|)))
+
+(defun $circuits_with_default_states (branches)
+  "BRANCHES, states not named called i_LABEL and u_LABEL."
+  (cons '(mlist simp)
+        (loop for branch in (cdr branches)
+              collect (if (and (circuits-store-p branch) (null (circuits-branch-state branch)))
+                          (let ((named (copy-circuits-branch branch)))
+                            (setf (circuits-branch-state named)
+                                  ($concat (if (eq (circuits-branch-type branch) '|$l|)
+                                               '$i_
+                                               '$u_)
+                                           (circuits-branch-label branch)))
+                            named)
+                          branch))))
+
+(defun $circuits_states_are_names (branches)
+  (loop for branch in (cdr branches)
+        always (or (not (circuits-store-p branch))
+                   (and (circuits-name-p (circuits-branch-state branch))
+                        (not (eq (circuits-branch-state branch) '$t))))))
+
+(defun $circuits_with_formulas (branches)
+  "Those whose values are neither numbers nor names, and those with laws."
+  (cons '(mlist simp)
+        (remove-if (lambda (branch)
+                     (let ((value (circuits-branch-value branch)))
+                       (and (or (numberp value)
+                                (and (circuits-name-p value) (not (eq value '$t))))
+                            (not (member (circuits-branch-type branch) '(|$ru| |$ri|))))))
+                   (cdr branches))))
+
 ;;; Branches by label, names in values
 
 (defun $circuits_labelled (branches label)

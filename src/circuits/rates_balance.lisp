@@ -7,8 +7,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "circuits/elements" "circuits/rates_by_branches"
-                "forms/dynamics" "forms/rates" "forms/rates_integrals"))
+  (core-require "algebra/program_nodes" "circuits/elements" "circuits/labels"
+                "circuits/rates_by_branches" "forms/dynamics" "forms/rates"
+                "forms/rates_integrals"))
 
 (defun circuits-balance (run states)
   "Two values: the integral of RUN as forms-rates has it, and nil; or nil and why it is not given."
@@ -37,12 +38,10 @@
                      (circuits-current run (circuits-coupling-one coupling))
                      (circuits-current run (circuits-coupling-other coupling))))))))
 
-(defun circuits-storing-p (branch) (member (circuits-branch-type branch) '(|$l| |$c|)))
-
 (defun circuits-balance-fault (run states)
   (loop for branch across (circuits-run-branches run)
         for label = (core-words (list (circuits-branch-label branch)))
-        do (if (circuits-storing-p branch)
+        do (if (circuits-store-p branch)
                (when (forms-depends-p (list (circuits-value run branch)) states)
                  (return (format nil "what ~a stores is not L*i^2/2 or C*u^2/2" label)))
                (unless (circuits-flow run branch)
@@ -70,6 +69,6 @@
    (circuits-run-sign run)
    (algebra-program-sum
     (loop for branch across (circuits-run-branches run)
-          unless (circuits-storing-p branch)
+          unless (circuits-store-p branch)
             collect (destructuring-bind (voltage . current) (circuits-flow run branch)
                       (algebra-program-multiply voltage current))))))

@@ -20,7 +20,8 @@
 (core-argument :formula "MixedPotential")
 (core-argument :branches "inductances" "capacitances")
 
-(core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions" "circuit")
+(core-rule "assumptions" '("circuit") "circuits/couplings" "circuits_assumptions"
+  "open_circuit")
 (core-rule "own_parts" '("circuit") "circuits/potential" "circuits_own_parts" "network")
 
 (core-option :truth "pairs")
@@ -74,14 +75,13 @@
 (core-option :truth "poles")
 (core-argument :formula "output")
 (core-argument :variable "input")
-(core-rule "response" '("circuit") "circuits/transfer" "circuits_transfer_function"
-  "open_circuit" "output" "input")
-(core-rule "driving_point" '("circuit") "circuits/transfer" "circuits_impedance"
-  "open_circuit" "from_node" "to_node")
-(loop for (name quantity . trailing) in '(("TransferFunction" "response" "output" "input")
-                                          ("Impedance" "driving_point" "from_node" "to_node"))
+(loop for (name quantity function . trailing)
+        in '(("TransferFunction" "response" "circuits_transfer_function" "output" "input")
+             ("Impedance" "driving_point" "circuits_impedance" "from_node" "to_node"))
       do (core-public name :trailing trailing :options '("poles") :kinds '("circuit"))
-         (core-rule-same-as name '("circuit") quantity)
+         (dolist (made (list name quantity))
+           (apply #'core-rule made '("circuit") "circuits/transfer" function "open_circuit"
+                  trailing))
          (core-rule-given '("poles" t) name '("circuit") "circuits/transfer"
            "circuits_poles_and_zeros" quantity))
 
@@ -108,6 +108,11 @@
 (loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
                                 ("forces" "Q"))
       do (core-rule-field quantity '("circuit") "LoopLagrangian" field))
+
+;;; What a picture of the graph shows
+
+(core-rule "structure_graph" '("circuit") "circuits/structure_graph" "circuits_structure_graph"
+  "circuit")
 
 ;;; SPICE netlists: written in each call
 

@@ -108,3 +108,8 @@
            :options '("values" "frequencies" "file" "replace") :kinds '("circuit") :numerical t)
          (core-act name nil '("circuit") "numerics/frequency_plots" function "picture"
            "frequency_curve"))
+
+(core-public "DrawStructure"
+  :options '("file" "replace") :kinds (core-kinds-giving "structure_graph"))
+(core-act "DrawStructure" nil (core-kinds-giving "structure_graph") "numerics/structure_picture"
+  "numerics_draw_structure" "picture" "structure_graph")

@@ -15,7 +15,8 @@
                                 (loop for (nil name) in axes collect (numerics-state-text name)))
                          (append (loop for (nil nil low high) in axes
                                        for range in '($xrange $yrange)
-                                       collect (numerics-option range (list '(mlist simp) low high)))
+                                       collect (numerics-option
+                                                range (list '(mlist simp) low high)))
                                  (numerics-cell-items cells)
                                  (numerics-boundary-items boundaries)
                                  (numerics-verdict-items marks)))))
