@@ -19,7 +19,7 @@ strings() {
 }
 called() { grep -o '[A-Z][A-Za-z]*[a-z][A-Za-z]*\( (\)\?[(]' | tr -d ' (' | sort -u; }
 called_in_strings() { grep -o '[A-Z][A-Za-z]*[a-z][A-Za-z]*[(]' | tr -d '(' | sort -u; }
-unknown() { grep -vxF -f faces; }
+unknown() { grep -vxF -f faces | grep -vx RealRoot; } # a constant, in results
 
 humps() { grep -o '\b[A-Z][a-z]*[A-Z][a-z][A-Za-z]*\b' | sort -u; }
 
@@ -33,6 +33,6 @@ check "names of two capitals in messages" "$(strings | humps | unknown | tr '\n'
 # every function of the faces has its entry, and a name that is not there is found
 check "functions without an entry in the manual" \
   "$(while read -r name; do grep -q "@deffnx* {Function} $name " "$root"/doc/*.texi || printf '%s ' "$name"; done <faces)" ""
-check "a planned function would be found" "$(echo 'see @code{ReduceForms(A, B)}' | called | unknown)" ReduceForms
+check "a planned function would be found" "$(echo 'see @code{NewtonEuler(A, B)}' | called | unknown)" NewtonEuler
 
 summary
