@@ -88,6 +88,7 @@
 
 (defun algebra-isolated-root (p k)
   "(square-free p, low, high); P has no root at LOW, and one up to HIGH, the K-th."
+  (algebra-require-root p k)
   (let* ((chain (algebra-sturm-chain p))
          (p (first chain))
          (high (1+ (ceiling (reduce #'max (mapcar #'abs (cdr p))) (abs (car p)))))

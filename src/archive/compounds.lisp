@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Expressions put together from their parts: what kind of thing each is, and the error where
 ;;; another kind was expected; arithmetic with lists and matrices, element by element; functions
-;;; whose arguments have a form of their own: diff, integrate, at, matrix, diag, notequal,
-;;; piecewise.
+;;; whose arguments have a form of their own: diff, integrate, at, RealRoot, matrix, diag,
+;;; notequal, piecewise.
 ;;; Look first at archive-form-kind.
 
 (in-package :maxima)
@@ -189,6 +189,24 @@ is rounded once."
   "True for name = value, where the name may be a derivative."
   (and (consp e) (eq (caar e) 'mequal) (eq (archive-form-kind (caddr e)) :scalar)
        (or (symbolp (cadr e)) (and (consp (cadr e)) (eq (caar (cadr e)) '%derivative)))))
+
+(defparameter *archive-root-degree* 200 "the greatest degree of a polynomial in RealRoot")
+
+(defun archive-make-real-root (reader name from arguments places)
+  "RealRoot([a0, .., an], k), a constant: see algebra/real_roots.lisp"
+  (archive-expect-count reader name from arguments 2)
+  (destructuring-bind (polynomial k) arguments
+    (unless (and (eq (archive-form-kind polynomial) :list)
+                 (<= 2 (length (cdr polynomial)) (1+ *archive-root-degree*))
+                 (loop for a in (cdr polynomial) always (integerp a))
+                 (not (eql (cadr polynomial) 0)))
+      (archive-fault reader (car places) "expected a list of 2 to ~d whole numbers, not 0 first"
+                     (1+ *archive-root-degree*)))
+    (unless (typep k `(integer 1 ,*archive-root-degree*))
+      (archive-fault reader (cadr places) "expected the number of a root from below, 1, 2, .."))
+    (unless (core-attempt (lambda () (core-judge-root (cdr polynomial) k) t))
+      (archive-fault reader from "this polynomial has no real root number ~d" k))
+    (archive-inert '|$RealRoot| arguments)))
 
 (defun archive-make-matrix (reader name from arguments places)
   (declare (ignore name from))

@@ -25,7 +25,7 @@
 
 (defparameter *archive-forms*
   '(("diff" . archive-make-derivative) ("integrate" . archive-make-integral)
-    ("at" . archive-make-at)
+    ("at" . archive-make-at) ("RealRoot" . archive-make-real-root)
     ("matrix" . archive-make-matrix) ("diag" . archive-make-diagonal)
     ("notequal" . archive-make-notequal)
     ("piecewise" . archive-make-piecewise))

@@ -31,7 +31,7 @@
     ($max . "max") (%max . "max") ($min . "min") (%min . "min")
     ($integrate . "integrate") (%integrate . "integrate") ($at . "at") (%at . "at")
     ($matrix . "matrix") ($notequal . "notequal") (mnotequal . "notequal")
-    ($piecewise . "piecewise")))
+    ($piecewise . "piecewise") (|$RealRoot| . "RealRoot")))
 
 (defun archive-unspellable (control &rest arguments)
   (core-error "an archive cannot hold ~?" control arguments))

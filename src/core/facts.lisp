@@ -22,6 +22,19 @@
   "States what looks at divisors where an equality is assumed."
   (setq *core-divisor-judge* (cons part function)))
 
+(defvar *core-root-judge* nil
+  "Part and function that refuse a root that a polynomial does not have.")
+
+(defun core-root-judge (part function)
+  "States what looks at RealRoot(polynomial, k) in an archive."
+  (setq *core-root-judge* (cons part function)))
+
+(defun core-judge-root (polynomial k)
+  "An error where POLYNOMIAL, whole numbers, has no K-th real root."
+  (when *core-root-judge*
+    (core-require (car *core-root-judge*))
+    (funcall (cdr *core-root-judge*) polynomial k)))
+
 (defun core-facts ()
   "The relations that hold here."
   (if (eq *core-facts* :session) (core-session-facts) *core-facts*))

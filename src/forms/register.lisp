@@ -15,6 +15,7 @@
 
 (core-fact-judge "algebra/known_signs" 'algebra-name-signs)
 (core-divisor-judge "algebra/divisors" 'algebra-require-divisors)
+(core-root-judge "algebra/real_roots" 'algebra-require-root)
 
 ;;; What acts beside L, and how equations are wanted
 
