@@ -26,9 +26,13 @@
 
 ;;; Mechanical systems as equations of the first order with integrals
 
-(core-rule "routh_system" *analysis-motions* "analysis/reduced_system" "analysis_routh_system"
+(core-rule "routh_system_itself" *analysis-motions* "analysis/reduced_system"
+  "analysis_routh_system"
   "Lagrangian" "coordinates" '("cyclic" $auto) '("momenta" ((mlist simp))) "actions"
   *analysis-laws*)
+(core-rule "routh_system" *analysis-motions* "analysis/reduced_system"
+  "analysis_smooth_routh_system"
+  "routh_system_itself" *analysis-functions* *analysis-laws* "coordinates")
 (core-rule-later "routh_system_asked" *analysis-motions* "routh_system")
 (loop for name in '("routh_stationary_equations" "routh_stationary_solutions")
       do (core-rule-later (concatenate 'string name "_asked") *analysis-motions* name))
