@@ -19,7 +19,7 @@
     $features $% $%% $_ $__ $infolists $prompt $linel $stdin $stdout $transcript $debugmode
     $showtime $lasttime $plot_options $gnuplot_command $gnuplot_view_args $gnuplot_term
     $gnuplot_out_file $wxplot_size $wxplot_usesvg $random $version $build_info $ttyoff $gensumnum
-    $testsuite_files $share_testsuite_files $factor_max_degree_print_warning)
+    $testsuite_files $share_testsuite_files $factor_max_degree_print_warning $ratprint)
   "Variables that are not options of a computation, or whose change must last.")
 
 (defparameter *core-lisp-options*
@@ -50,7 +50,7 @@ compiled progv.)"
 ;;; Options
 
 (defun core-default-options ()
-  "Two lists: option variables that differ from Maxima's defaults, and the defaults; and one whose
+  "Two lists: option variables that differ from Maxima's defaults, and the defaults; and those whose
 default is to print a line."
   (let ((names (mapcar #'car *core-lisp-options*)) (defaults (mapcar #'cdr *core-lisp-options*))
         (kept (append *core-kept-variables* (cdr $infolists))))
@@ -63,7 +63,7 @@ default is to print a line."
                  (push name names)
                  (push default defaults)))
              *variable-initial-values*)
-    (values (cons '$factor_max_degree_print_warning names) (cons nil defaults))))
+    (values (list* '$factor_max_degree_print_warning '$ratprint names) (list* nil nil defaults))))
 
 (defun core-information-lists ()
   "The lists that Maxima keeps of what the user made: functions, rules, options set, ..."
