@@ -178,6 +178,12 @@ with this sentence."
           (given default)
           (t (core-error "~a is missing" (core-section-name key))))))
 
+(defun $core_appended (lists)
+  "The elements of all LISTS in one. (A call has at most 64 arguments on GCL.)"
+  (cons '(mlist simp)
+        (loop for list in (cdr lists)
+              append (if ($listp list) (cdr list) (core-error "found ~a, expected a list" list)))))
+
 (defun core-attempt (function)
   "A list of the value of FUNCTION, or nil when it ends in an error; nothing is printed and `error'
 keeps its value."
