@@ -320,7 +320,16 @@ for the next time."
                    (lambda ()
                      (core-with-values names defaults
                                        (lambda () (core-with-clean-values function)))))))
-            (setq $piece piece))))))
+            (setq $piece piece)
+            (core-reset-options names))))))
+
+(defun core-reset-options (names)
+  "Defaults for options other than NAMES, those that the user changed: a stop may have come between
+a binding of Maxima's and its end."
+  (multiple-value-bind (changed defaults) (core-default-options)
+    (loop for name in changed
+          for default in defaults
+          unless (member name names) do (set name default))))
 
 (defun core-clean-call (function arguments)
   "FUNCTION applied to ARGUMENTS in the clean session. Where names were ordered the arguments have
