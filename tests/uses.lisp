@@ -245,6 +245,21 @@ The core is left out: it reads its chapters for all; so do the registers, which 
                             unless (uses-may-p room other)
                               collect (format nil "never src/~a src/~a" room other)))))
 
+(defun $uses_circles ()
+  "The parts of analysis, circuits, .. that use each other in a circle. Those that use none that is
+left, or that none uses, are taken away; the core reads its chapters together."
+  (let ((arrows (loop for (part other) in (uses-arrows)
+                      unless (string= (uses-room other) "core")
+                        collect (cons (uses-part-name part) other))))
+    (loop for users = (mapcar #'car arrows) and used = (mapcar #'cdr arrows)
+          for left = (remove-if-not (lambda (arrow)
+                                      (and (member (car arrow) used :test #'string=)
+                                           (member (cdr arrow) users :test #'string=)))
+                                    arrows)
+          until (= (length left) (length arrows))
+          do (setq arrows left))
+    (apply #'uses-list (sort (remove-duplicates (mapcar #'car arrows) :test #'string=) #'string<))))
+
 (defun $uses_forbidden ()
   "[[part, other, names], ..]: a part uses one of a room that its own room may not use."
   (apply #'uses-list
