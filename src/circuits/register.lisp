@@ -73,7 +73,7 @@
 ;;; Transfer functions; `poles' gives a record with poles and zeros
 
 (core-option :truth "poles")
-(core-argument :formula "output")
+(core-argument :quantity "output")
 (core-argument :variable "input")
 (loop for (name quantity function . trailing)
         in '(("TransferFunction" "response" "circuits_transfer_function" "output" "input")
