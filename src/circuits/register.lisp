@@ -46,6 +46,11 @@
       do (core-rule-given given "StateEquations" '("circuit") "circuits/state"
            "circuits_system_equations" "tableau" "network" "own_parts" "MixedPotential"
            '("solved" nil) '("matrices" nil)))
+(core-rule "variables" '("circuit") "circuits/blocks" "circuits_determined_names"
+  "StateEquations" "state_system")
+(dolist (given '("potential" (:edited "MixedPotential")))
+  (core-rule-given given "variables" '("circuit") "circuits/state" "circuits_rated_names"
+    "StateEquations"))
 (core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
   "MixedPotential" "inductances" "capacitances" '("solved" nil))
 
