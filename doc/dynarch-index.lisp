@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2987084070 126699
+;;; Made by tools/doc; checksum of doc/*.texi: 1804054292 126944
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -65,11 +65,11 @@
 ("LinearIntegrals" . ("dynarch.info" 104723 1127 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 105851 815 "Definitions for Analysis"))
 ("PolynomialIntegrals" . ("dynarch.info" 106667 2023 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 108969 6393 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 115363 3906 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 119270 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 121233 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 125951 3304 "Definitions for Numerics"))
+("Simulate" . ("dynarch.info" 108969 6658 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 115628 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 119535 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 121498 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 126216 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -79,6 +79,6 @@
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 22501))
 ("Definitions for Analysis" . ("dynarch.info" 62156 46534))
-("Definitions for Numerics" . ("dynarch.info" 108825 20430))
+("Definitions for Numerics" . ("dynarch.info" 108825 20695))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

@@ -113,6 +113,11 @@
 (core-rule-given "potential" "rates" '("circuit") "forms/rates_of_systems" "forms_equation_rates"
   "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp)))
   '("integrals" ((mlist simp))) '("level" ((mlist simp))))
+;; Of a degenerate circuit the start may name what others determine
+
+(core-rule "run_start" '("circuit") "circuits/consistent_start" "circuits_run_start" "circuit"
+  "rates" "start" '("values" ((mlist simp))) '("time" ((mlist simp))))
+(core-rule-same-as "run_start" '("circuit") "start" :given "potential_alone")
 (core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("circuit") "hamilton_rates" :given '("function" $hamilton))
 
