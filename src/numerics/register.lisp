@@ -33,14 +33,15 @@
              "integrals" "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces"
              "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
+(core-rule-same-as "run_start" :any "start")
 (core-rule "derivation_began" :any "numerics/native" "numerics_working_seconds")
 (core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"
-  *numerics-values* "start" "time" "run")
+  *numerics-values* "run_start" "time" "run")
 
 ;;; What methods reach, and what it costs
 
 (core-rule "trial" :any "numerics/trial" "numerics_trial" "derivation_began" "rates"
-  *numerics-values* "start" "time")
+  *numerics-values* "run_start" "time")
 
 (core-public "ReferenceSolution"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
