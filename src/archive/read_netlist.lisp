@@ -49,8 +49,9 @@
   (unless (net-sheet-branches sheet) (core-error "~a has no elements" *archive-net-file*))
   (let ((starts (archive-net-starts sheet)) (laws (reverse (net-sheet-laws sheet))))
     (format nil "dynarch = 1~%kind = circuit~%title = ~s~%~%[system]~%~@[~a~]~@[~a~]~@[~a~]~@[~a~]~
-                 ~@[~a~]~%[branches]~%~{~a~%~}~@[~a~]"
+                 ~@[~a~]~@[~a~]~%[branches]~%~{~a~%~}~@[~a~]"
             (archive-net-title sheet)
+            (and (gethash "0" (net-sheet-nodes sheet)) (format nil "datum = 0~%"))
             (archive-net-key "functions" (mapcar (lambda (law)
                                                    (subseq law 0 (position #\( law))) laws))
             (archive-net-key "laws" laws)
