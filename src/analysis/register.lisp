@@ -80,7 +80,7 @@
 (core-rule "special_cases_sought" :any "analysis/motion_records" "analysis_special_cases"
   *analysis-where* *analysis-laws* *analysis-unknowns*)
 (core-rule "undisturbed_motion" '("equations") "analysis/second_order" "analysis_equations_motion"
-  "state_equations" *analysis-variables* "solution" "special_cases_sought")
+  "equations" *analysis-variables* "solution" "special_cases_sought")
 (core-rule "undisturbed_motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
 (core-rule "undisturbed_motion" *analysis-motions* "analysis/given_solution"

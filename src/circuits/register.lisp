@@ -13,6 +13,22 @@
   "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
+;;; A potential without branches, of the rules that a potential has the first to be taken
+
+(dolist (whole '("circuit" "open_circuit"))
+  (core-rule-given "potential_alone" whole '("circuit") "circuits/potential_alone"
+    "circuits_alone_branches"))
+(core-rule-given "potential_alone" "assumptions" '("circuit") "circuits/potential_alone"
+  "circuits_alone_assumptions")
+(core-rule-given "potential_alone" "MixedPotential" '("circuit") "circuits/potential_alone"
+  "circuits_alone_potential" "potential" '("laws" ((mlist simp))))
+(core-rule-given "potential_alone" "StateEquations" '("circuit") "circuits/potential_alone"
+  "circuits_alone_equations" "potential" "states" '("laws" ((mlist simp))) '("solved" nil))
+(core-rule-given "potential_alone" "PotentialRate" '("circuit") "circuits/potential_alone"
+  "circuits_alone_rate" "potential" "states" '("laws" ((mlist simp))))
+(core-rule-given "potential_alone" "potential_stores" '("circuit") "circuits/potential_alone"
+  "circuits_alone_stores" "potential" "states")
+
 ;;; The sparse tableau, solved for independent states
 
 (core-middle "tableau" '("circuit") "circuits/solved_tableau" "circuits_solved_tableau" "circuit")
@@ -46,6 +62,11 @@
       do (core-rule-given given "StateEquations" '("circuit") "circuits/state"
            "circuits_system_equations" "tableau" "network" "own_parts" "MixedPotential"
            '("solved" nil) '("matrices" nil)))
+(core-rule "variables" '("circuit") "circuits/blocks" "circuits_determined_names"
+  "StateEquations" "state_system")
+(dolist (given '("potential" (:edited "MixedPotential")))
+  (core-rule-given given "variables" '("circuit") "circuits/state" "circuits_rated_names"
+    "StateEquations"))
 (core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
   "MixedPotential" "inductances" "capacitances" '("solved" nil))
 

@@ -9,8 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "circuits/coefficients" "circuits/elements" "circuits/tableau"
-                "circuits/tableau_elimination"))
+  (core-require "algebra/size" "circuits/coefficients" "circuits/elements" "circuits/numbers"
+                "circuits/tableau" "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
   tableau
@@ -57,7 +57,8 @@
            (loop for branch across (circuits-tableau-branches tableau)
                  when (eq (circuits-branch-type branch) type)
                    collect (circuits-branch-number branch))))
-    (append (of-type '|$l|) (of-type '|$c|))))
+    (loop for type in '(|$l| |$c|)
+          append (circuits-in-named-order (circuits-tableau-circuit tableau) (of-type type)))))
 
 ;;; Rates
 
@@ -138,16 +139,21 @@
              (circuits-weakest-first solution))))
 
 (defun circuits-weakest-first (solution)
-  "The states in the order in which they give way: the latest first, those last that the person's
-tree keeps independent."
+  "The states in the order in which they give way: voltages before currents, of each the latest
+branch first; last those that the person's tree keeps independent."
   (let* ((tableau (circuits-solution-tableau solution))
-         (chosen (cdr (circuits-circuit-chosen_tree (circuits-tableau-circuit tableau)))))
+         (count (length (circuits-tableau-branches tableau)))
+         (tree (circuits-circuit-chosen_tree (circuits-tableau-circuit tableau)))
+         (chosen (and (consp tree) (cdr tree))))
     (flet ((kept-p (k)
              (let* ((branch (circuits-branch-at tableau k))
                     (in-tree (member (circuits-branch-label branch) chosen)))
                (if (eq (circuits-branch-type branch) '|$c|) in-tree (and chosen (not in-tree))))))
-      (stable-sort (reverse (circuits-solution-states solution)) #'<
-                   :key (lambda (k) (if (kept-p k) 1 0))))))
+      (sort (copy-list (circuits-solution-states solution)) #'>
+            :key (lambda (k)
+                   (+ k
+                      (if (eq (circuits-branch-type (circuits-branch-at tableau k)) '|$c|) count 0)
+                      (if (kept-p k) (* -2 count) 0)))))))
 
 (defun circuits-tied-row (solution tie k)
   "What the tie makes of the state of K."
