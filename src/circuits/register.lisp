@@ -115,6 +115,7 @@
   '("integrals" ((mlist simp))) '("level" ((mlist simp))))
 (core-rule "run_start" '("circuit") "circuits/start" "circuits_run_start" "circuit" "rates"
   '("values" ((mlist simp))) "start" "time")
+(core-rule-same-as "run_start" '("circuit") "start" :given "potential")
 (core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("circuit") "hamilton_rates" :given '("function" $hamilton))
 
