@@ -124,7 +124,3 @@ sums with whole or fractional multiples."
                            (algebra-scaled-p node))))
            (when (and turned linear) (mapc mark-turned parts))
            (when (or plain (not linear)) (mapc mark-plain parts)))))))
-
-(defun $forms_rated_states (rates)
-  "The states of RATES as a Maxima list."
-  (cons '(mlist simp) (forms-rates-states rates)))
