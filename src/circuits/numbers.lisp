@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Branches and numbers of branches: those of a type, those that are not in a list. Each branch is
-;;; looked at once, whatever its place in the list is.
+;;; Branches and numbers of branches: those of a type, those that are not in a list, those with
+;;; states in the person's order. Each branch is looked at once, whatever its place in the list is.
 
 (in-package :maxima)
 
@@ -41,3 +41,16 @@
         (loop for mark across (circuits-marks numbers count)
               for number from 1
               unless mark collect number)))
+
+(defun circuits-in-named-order (circuit numbers)
+  "NUMBERS of branches with states, those first that the key `states' names, in its order."
+  (let ((named (cdr (circuits-circuit-named_states circuit))))
+    (if (null named)
+        numbers
+        (let ((branches (coerce (cdr (circuits-circuit-branches circuit)) 'simple-vector))
+              (places (make-hash-table :test #'eq)))
+          (loop for name in named for place from 0 do (setf (gethash name places) place))
+          (stable-sort (copy-list numbers) #'<
+                       :key (lambda (number)
+                              (gethash (circuits-branch-state (svref branches (1- number)))
+                                       places (length named))))))))

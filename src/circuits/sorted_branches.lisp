@@ -87,6 +87,9 @@
         for others = (circuits-resistors-in-loop branches (svref loops (1- link)))
         when others collect (cons link others)))
 
+(defun circuits-states-in-order (structure numbers)
+  (cons (car numbers) (circuits-in-named-order structure (cdr numbers))))
+
 (defun $circuits_sort_branches (structure)
   "A network of STRUCTURE, its branches sorted."
   (let* ((branches (circuits-branch-vector structure))
@@ -104,9 +107,11 @@
                               (circuits-numbers-of-type branches numbers
                                                         *circuits-resistors*)))))
       (let ((network ($circuits_network structure)))
-        (setf (circuits-network-inductors network) (of links '|$l|)
+        (setf (circuits-network-inductors network)
+              (circuits-states-in-order structure (of links '|$l|))
               (circuits-network-dependent_inductors network) (of tree '|$l|)
-              (circuits-network-capacitors network) (of tree '|$c|)
+              (circuits-network-capacitors network)
+              (circuits-states-in-order structure (of tree '|$c|))
               (circuits-network-dependent_capacitors network) (of links '|$c|)
               (circuits-network-tree_resistors network) (resistors tree nil)
               (circuits-network-link_resistors network) (resistors links nil)
