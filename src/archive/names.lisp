@@ -48,7 +48,7 @@
     (:names (cdr value))
     (:facts (archive-fact-names value))
     (:assignments (archive-lefts value))
-    (:states (append (archive-lefts value) (archive-rights value)))
+    (:states (archive-lefts value))
     (:laws (mapcar #'caar (archive-lefts value)))
     (:spin (cddr value))
     (:algebra (mapcar #'core-symbol '("M1" "M2" "M3" "g1" "g2" "g3")))
@@ -71,12 +71,16 @@
 ;; All names
 
 (defun archive-branch-names (description)
-  "Two values: names that the branches declare, and names that their values use."
-  (let ((rows (cdr ($core_get description '$branches '((mlist))))))
+  "Two values: names that the branches declare, and names that their values use; `states' give
+labels of branches, or values where there are none."
+  (let ((rows (cdr ($core_get description '$branches '((mlist)))))
+        (stated (archive-rights ($core_get description '$states '((mlist))))))
     (values (append (mapcan #'archive-row-states rows)
+                    (and rows (copy-list stated))
                     (loop for row in rows when (archive-equation-p row) collect (second row)))
             (archive-used-names
              (archive-list (append (mapcan #'archive-branch-value rows)
+                                   (and (null rows) (copy-list stated))
                                    (archive-last-fields ($core_get description '$couplings nil))
                                    (archive-last-fields
                                     ($core_get description '$transformers nil))))))))
@@ -127,6 +131,8 @@
     (append (called "a coordinate" (of-key '$coordinates))
             (called "a variable" (of-key '$variables))
             (called "the angle of a rotor" (archive-rotor-angles description))
+            (called "the state of a branch"
+                    (archive-lefts ($core_get description '$states '((mlist)))))
             (called "the state of a branch"
                     (loop for row in (cdr ($core_get description '$branches '((mlist))))
                           append (archive-row-own-state row))))))
