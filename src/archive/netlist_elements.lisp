@@ -176,6 +176,7 @@
   "E, G: two nodes, two that control, the gain."
   (destructuring-bind (&optional tail head a b gain &rest more) (net-element-fields element)
     (declare (ignore tail head))
+    (archive-net-refuse-formula element a)
     (archive-net-none-left element more)
     (let ((value (archive-net-element-value element gain)))
       (archive-net-put-branch sheet element
@@ -187,11 +188,18 @@
   "F, H: two nodes, the source of voltage whose current controls, the gain."
   (destructuring-bind (&optional tail head source gain &rest more) (net-element-fields element)
     (declare (ignore tail head))
+    (archive-net-refuse-formula element source)
     (archive-net-none-left element more)
     (archive-net-put-branch sheet element (string (char-upcase (archive-net-letter element)))
                             (archive-net-element-value element gain)
                             (archive-net-other-label sheet element source #\v
                                                      "a source of voltage"))))
+
+(defun archive-net-refuse-formula (element field)
+  (when (member field '("poly" "value" "vol" "cur" "table" "laplace") :test #'equalp)
+    (archive-net-fault "~a: ~a is not read, a constant gain is; a formula of the branch's own ~
+                        voltage, of its own current, or of the time, stands in a source B"
+                       (net-element-name element) field)))
 
 (defun archive-net-other-label (sheet element name letter what)
   (or (and name (plusp (length name)) (char-equal (char name 0) letter)

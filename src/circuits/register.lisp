@@ -94,7 +94,7 @@
 ;;; Transfer functions; `poles' gives a record with poles and zeros
 
 (core-option :truth "poles")
-(core-argument :formula "output")
+(core-argument :quantity "output")
 (core-argument :variable "input")
 (loop for (name quantity function . trailing)
         in '(("TransferFunction" "response" "circuits_transfer_function" "output" "input")
@@ -113,10 +113,8 @@
 (core-rule-given "potential" "rates" '("circuit") "forms/rates_of_systems" "forms_equation_rates"
   "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp)))
   '("integrals" ((mlist simp))) '("level" ((mlist simp))))
-;; Of a degenerate circuit the start may name what others determine
-
-(core-rule "run_start" '("circuit") "circuits/consistent_start" "circuits_run_start" "circuit"
-  "rates" "start" '("values" ((mlist simp))) '("time" ((mlist simp))))
+(core-rule "run_start" '("circuit") "circuits/start" "circuits_run_start" "circuit" "rates"
+  '("values" ((mlist simp))) "start" "time")
 (core-rule-same-as "run_start" '("circuit") "start" :given "potential_alone")
 (core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("circuit") "hamilton_rates" :given '("function" $hamilton))
@@ -145,7 +143,10 @@
 (core-option :truth "replace")
 (core-rule "netlist_text" '("circuit") "circuits/write_netlist" "circuits_netlist_text" "circuit"
   '("values" ((mlist simp))) '("where" ((mlist simp))) '("nodes" ((mlist simp)))
-  '("start" ((mlist simp))) '("time" ((mlist simp))))
+  "whole_start" '("time" ((mlist simp))))
+(core-rule "whole_start" '("circuit") "circuits/start" "circuits_whole_start" "circuit"
+  '("values" ((mlist simp))) '("where" ((mlist simp))) '("start" ((mlist simp)))
+  '("time" ((mlist simp))))
 (core-public "WriteNetlist"
   :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
   :kinds '("circuit"))

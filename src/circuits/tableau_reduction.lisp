@@ -9,8 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "circuits/coefficients" "circuits/elements" "circuits/numbers"
-                "circuits/tableau" "circuits/tableau_elimination"))
+  (core-require "algebra/size" "algebra/zero" "circuits/coefficients" "circuits/elements"
+                "circuits/numbers" "circuits/tableau" "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
   tableau
@@ -285,15 +285,21 @@ branch first; last those that the person's tree keeps independent."
              (circuits-solution-solved solution))
     (if moved (sort (union moved open) #'<) open)))
 
+(defun circuits-refuse-sources (solution sources demanded)
+  (let ((labels (circuits-labels-of solution sources)))
+    (if (eq t ($algebra_zerop demanded))
+        (core-error "the sources ~{~a~^, ~} give the same twice, so that what flows between them ~
+                     is not determined; one of them is enough" labels)
+        (core-error "the sources contradict each other: the branches demand 0 = ~a (~{~a~^, ~})"
+                    (core-words (list demanded)) labels))))
+
 (defun circuits-refuse-tie (solution tie)
   (let* ((tableau (circuits-solution-tableau solution))
          (columns (loop for column being the hash-keys of tie collect column))
          (sources (remove :source columns :key (lambda (c) (car (circuits-descriptor tableau c)))
                                   :test-not #'eq)))
     (if (= (length sources) (length columns))
-        (core-error "the sources contradict each other: the branches demand 0 = ~a (~{~a~^, ~})"
-                    (core-words (list (circuits-row-expression solution tie)))
-                    (circuits-labels-of solution sources))
+        (circuits-refuse-sources solution sources (circuits-row-expression solution tie))
         (core-error "neither inductor currents nor capacitor voltages determine the nonlinear ~
                      branches ~{~a~^, ~}" (circuits-labels-of solution columns)))))
 

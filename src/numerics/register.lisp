@@ -34,6 +34,7 @@
              "integrals" "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces"
              "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
+(core-rule-same-as "run_start" :any "start")
 (core-rule "derivation_began" :any "numerics/native" "numerics_working_seconds")
 (core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"
   *numerics-values* "run_start" "time" "run")
