@@ -1,12 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The types of the table of keys: one function for each turns a parsed value into the form that
-;;; the rooms receive, or refuses it. archive-typed is the entrance. Values are Maxima expressions;
-;;; what they mean together (lengths, parents, loops) is left to the rooms.
+;;; The types of the table of keys: one function for each turns a parsed value, an expression, into
+;;; what the rooms receive, or refuses it; archive-typed is the entrance. What values mean together
+;;; (lengths, parents, loops) is left to the rooms.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/nearest" "archive/register" "archive/simplify" "archive/speller"))
+  (core-require "core/nearest" "archive/interpolated_laws" "archive/register" "archive/simplify"
+                "archive/speller"))
 
 (defparameter *archive-version* 1)
 
@@ -112,7 +113,6 @@ sixty letters."
   (if (archive-list-p value) (cdr value) (archive-unfit)))
 
 (defun archive-list (items) (cons '(mlist simp) items))
-
 (defun archive-equation (left right) (list '(mequal simp) left right))
 
 (defun archive-each (function value)
@@ -291,7 +291,8 @@ those who compute with it."
   value)
 
 (defun archive-as-laws (value)
-  (archive-checked-equations value #'archive-a-law #'archive-an-expression))
+  (archive-laws-as-formulas (archive-checked-equations
+                             value #'archive-a-law (archive-points-or #'archive-an-expression))))
 
 (defun archive-a-state (value)
   (if (archive-velocity-p value) value (archive-a-name value)))
@@ -326,7 +327,6 @@ those who compute with it."
 (defun archive-as-facts (value) (archive-each #'archive-a-fact value))
 
 ;; The list of a graph
-
 (defparameter *archive-graph-types*
   '((#\L . "L") (#\C . "C") (#\R . "R") (#\E . "E") (#\I . "I")
     (#\f . "RU") (#\g . "RU") (#\h . "RI"))

@@ -94,7 +94,7 @@
 ;;; Transfer functions; `poles' gives a record with poles and zeros
 
 (core-option :truth "poles")
-(core-argument :formula "output")
+(core-argument :quantity "output")
 (core-argument :variable "input")
 (loop for (name quantity function . trailing)
         in '(("TransferFunction" "response" "circuits_transfer_function" "output" "input")
@@ -115,7 +115,7 @@
   '("integrals" ((mlist simp))) '("level" ((mlist simp))))
 (core-rule "run_start" '("circuit") "circuits/start" "circuits_run_start" "circuit" "rates"
   '("values" ((mlist simp))) "start" "time")
-(core-rule-same-as "run_start" '("circuit") "start" :given "potential")
+(core-rule-same-as "run_start" '("circuit") "start" :given "potential_alone")
 (core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("circuit") "hamilton_rates" :given '("function" $hamilton))
 

@@ -189,7 +189,15 @@
           (loop for number in (cdr numbers)
                 collect (list '(mequal simp)
                               (circuits-branch-state (svref branches (1- number)))
-                              (addn (loop for (nil place value) in (cdr (svref rows (1- number)))
-                                          collect (mul sign value
-                                                       (svref quantities (1- place))))
-                                    nil))))))
+                              (circuits-sum-of-row (svref rows (1- number)) sign quantities))))))
+
+(defun circuits-sum-of-row (row sign quantities)
+  "SIGN times the sum of ROW with QUANTITIES. Maxima puts each term of a sum into its place from the
+front; as the last come first here, that is no walk along a long sum."
+  (addn (loop for (x value) in (sort (loop for (nil place value) in (cdr row)
+                                           collect (list (svref quantities (1- place)) value))
+                                     #'string>
+                                     :key (lambda (term)
+                                            (if (symbolp (first term)) (first term) "")))
+              collect (mul sign value x))
+        nil))

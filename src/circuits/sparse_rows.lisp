@@ -41,7 +41,7 @@
           do (loop for (nil place value) in (cdr row)
                    do (push (circuits-entry number value) (aref table (1- place)))))
     (cons '(mlist simp)
-          (loop for column across table collect (cons '(mlist simp) (reverse column))))))
+          (loop for column across table collect (cons '(mlist simp) (nreverse column))))))
 
 (defun $circuits_position (item items)
   "The place of ITEM, a number or a name, in the list ITEMS."

@@ -130,6 +130,12 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
   (pushnew (core-words items) *core-checks* :test #'string=)
   '$done)
 
+(defun $core_noted (&rest items)
+  "ITEMS as a line on the terminal, and as what the section of the result says was found."
+  (let ((text (core-words items)))
+    (core-note "~a" text)
+    ($core_checked text)))
+
 (defun $core_left_out (&rest items)
   (pushnew (core-words items) *core-left-out* :test #'string=)
   '$done)

@@ -21,6 +21,7 @@
 (core-argument :motion "start")
 (core-argument :interval "time")
 
+(core-rule-same-as "run_start" :any "start")
 (core-rule "run" :any "numerics/run_options" "numerics_wishes" '("method" $auto) '("points" 101)
   '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("first_step" 0)
   '("estimate" nil) '("conditioning" nil))
@@ -76,7 +77,7 @@
 
 (core-rule "picture" :any "numerics/pictures" "numerics_picture" '("file" nil) '("replace" nil))
 (core-rule "curves" :any "numerics/time_plot" "numerics_curves" "plot" "rates" *numerics-values*
-  "start")
+  "run_start")
 (core-act "Simulate" "plot" :any "numerics/time_plot" "numerics_time_plot" "picture" "curves"
   "Simulate")
 
