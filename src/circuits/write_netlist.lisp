@@ -223,7 +223,8 @@ it where that is taken."
       (let ((n (circuits-card-number cards (circuits-transformer-ratio transformer) "a ratio"))
             (between (circuits-card-word cards :node (list :transformer k) "n_t~d" k)))
         (flet ((named (letter)
-                 (circuits-card-word cards :element (list :transformer k letter) "~a_t~d" letter k)))
+                 (circuits-card-word cards :element (list :transformer k letter) "~a_t~d" letter
+                                     k)))
           (circuits-put-card cards "~a ~a ~a ~a ~a ~a" (named #\E) a between c d
                              (circuits-spice-number n))
           (circuits-put-card cards "~a ~a ~a 0" (named #\V) between b)
