@@ -19,6 +19,7 @@
   (let* ((facts (core-facts))
          (kept (or (find facts *algebra-knowledges* :key #'knowledge-facts :test #'equal)
                    (algebra-learned facts))))
+    (setf (knowledge-facts kept) facts) ; the next question finds the same list at once
     (setq *algebra-knowledges*
           (cons kept (remove kept (subseq *algebra-knowledges* 0
                                           (min (1- *algebra-kept-knowledge*)
