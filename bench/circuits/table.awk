@@ -28,7 +28,7 @@ function table(work, title, peer,   numbers, count, i, n) {
     }
   }
 }
-function target(name, found, limit) { printf "* %s: %s at most %s: %s\n", found + 0 <= limit + 0 ? "met" : "not met", name, limit, found }
+function target(name, found, limit) { if (found != "") printf "* %s: %s at most %s: %s\n", found + 0 <= limit + 0 ? "met" : "not met", name, limit, found }
 function at_least(name, found, limit) { printf "* %s: %s at least %s: %s\n", (found + 0 >= limit + 0 ? "met" : "not met"), name, limit, found }
 END {
   table("ladder", "state equations of a ladder of n sections, 2*n states, all symbols", "lcapy")
