@@ -72,6 +72,10 @@
         ((member a '($pos $neg $zero)) a)
         (t b)))
 
+(defun algebra-sign-values (sign)
+  (ecase sign
+    ($pos '(1)) ($neg '(-1)) ($zero '(0)) ($pz '(0 1)) ($nz '(-1 0)) ($pn '(-1 1))))
+
 (defun algebra-opposite-sign (sign)
   (case sign
     ($pos '$neg) ($neg '$pos) ($pz '$nz) ($nz '$pz)
