@@ -172,11 +172,13 @@
        (null (intersection (algebra-sign-values a) (algebra-sign-values b)))))
 
 (defun algebra-learn-item (item sign)
-  (let ((entry (assoc item (knowledge-items *algebra-knowledge*) :test #'alike1)))
+  (let ((entry (algebra-entry-of-item item)))
     (if entry
         (setf (cdr entry) (algebra-agree (cdr entry) sign))
-        (push (cons item (algebra-agree (algebra-part-sign item) sign))
-              (knowledge-items *algebra-knowledge*)))))
+        (let ((learned (cons item (algebra-agree (algebra-part-sign item) sign))))
+          (push learned (knowledge-items *algebra-knowledge*))
+          (when (symbolp item)
+            (setf (gethash item (knowledge-names *algebra-knowledge*)) learned))))))
 
 (defun algebra-learn-sum (sum sign)
   (let* ((plain ($expand sum))
