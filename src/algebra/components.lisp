@@ -12,22 +12,28 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/common_roots" "algebra/general_form" "algebra/groebner"
-                "algebra/kernels"))
+                "algebra/kernels" "core/watch"))
 
 (defparameter *algebra-most-components* 400 "how many branches are looked at")
 (defparameter *algebra-most-factored* 60 "terms of an element up to which it is factored")
+
+(defvar *algebra-whole-work* 0 "how many coefficients may be formed in all")
+(defvar *algebra-basis-shares* '(1) "of that: what one basis may take, at first and at last")
+(defparameter *algebra-basis-time* 1/12 "of the time left, for one basis")
 
 (defvar *algebra-factors-found* nil "the factors of elements that were met, by their terms")
 
 (defstruct (algebra-branch (:conc-name algebra-branch-))
   elements        ; a basis, z in some
   product         ; what does not vanish
-  new)            ; polynomials that vanish as well
+  new             ; polynomials that vanish as well
+  split)          ; at which it was split before their basis was known
 
-(defun $algebra_components (polynomials names apart work)
+(defun $algebra_components (polynomials names apart work &optional split)
   "[[[[e, ..], dimension], ..], taken]: components where POLYNOMIALS vanish and none of APART does,
 and the parameters that were taken as not zero; the dimension is false where no basis was found
-within the WORK, a count of coefficients.  false where there are roots or functions of NAMES, a
+within the WORK, a count of coefficients; with SPLIT such sets are split at what was found of it.
+false where there are roots or functions of NAMES, a
 sentence where there is too much."
   (algebra-with-polynomials `((mlist) ,@(cdr polynomials) ,@(cdr apart)) names
     (lambda (terms numbers kernels)
@@ -35,6 +41,8 @@ sentence where there is too much."
       (let* ((*algebra-taken* nil)
              (*algebra-degree-order* 'first)
              (*algebra-work-left* (core-sized work))
+             (*algebra-whole-work* *algebra-work-left*)
+             (*algebra-basis-shares* (if split '(1/25 1/4) '(1)))
              (*algebra-factors-found* (make-hash-table :test #'equal))
              (of-apart (length (cdr apart)))
              (components (algebra-components-of (butlast terms of-apart) (last terms of-apart)
@@ -52,30 +60,67 @@ sentence where there is too much."
 (defun algebra-components-of (polynomials apart kernels)
   "A list of (basis . dimension)."
   (let ((waiting (list (algebra-first-branch polynomials apart (length kernels))))
-        (work *algebra-work-left*)
         (count 0)
         (components '()))
     (loop while waiting
           do (when (> (incf count) (core-sized *algebra-most-components*))
                (throw 'algebra-too-large 'too-large))
-             (let* ((branch (pop waiting))
-                    (grown (catch 'algebra-too-large (algebra-basis-of-branch branch))))
-               (cond ((eq grown 'too-large)
-                      (push (list nil (algebra-given-equations branch)) components)
-                      (setq *algebra-work-left* (floor work 4)))
-                     (t (let* ((basis (algebra-branch-elements grown))
-                               (factors (algebra-factors-in basis kernels)))
-                          (if factors
-                              (setq waiting (append (algebra-branches-by factors grown) waiting))
-                              (let ((component (algebra-component basis (length kernels))))
-                                (when component (push component components)))))))))
+             (let ((branch (pop waiting)))
+               (multiple-value-bind (grown factors) (algebra-grown-or-factors branch kernels)
+                 (let* ((whole (or grown branch))
+                        (parts (and factors (algebra-within-bounds
+                                             1 (lambda () (algebra-branches-by factors whole)))))
+                        (component (and grown (null factors)
+                                        (algebra-component (algebra-branch-elements grown)
+                                                           (length kernels)))))
+                   (cond (parts (setq waiting (append parts waiting)))
+                         (component (push component components))
+                         ((or factors (null grown))
+                          (push (list nil (algebra-given-equations branch)) components)))))))
     (mapcar #'cdr (algebra-not-contained (nreverse components)))))
+
+(defun algebra-grown-or-factors (branch kernels)
+  "The BRANCH with its basis, and factors in it.  Where that is too much: nil, and factors of what
+was found of a basis, after little work and, where there were none, after more."
+  (loop for (share . more) on *algebra-basis-shares*
+        for grown = (algebra-within-bounds share (lambda () (algebra-basis-of-branch branch)))
+        for factors = (cond (grown (algebra-factors-in (algebra-branch-elements grown) kernels))
+                            ((cdr *algebra-basis-shares*)
+                             (algebra-factors-so-far branch kernels)))
+        when (or grown factors (null more)) return (values grown factors)))
+
+(defun algebra-within-bounds (share function)
+  "What FUNCTION returns; nil where it needs more than this SHARE of the work, or of the time."
+  (let* ((before *algebra-work-left*)
+         (allowed (min before (floor (* share *algebra-whole-work*))))
+         (answer (catch 'algebra-too-large
+                   (setq *algebra-work-left* allowed)
+                   (values (core-within *algebra-basis-time* function)))))
+    (setq *algebra-work-left* (max (floor *algebra-whole-work* 4)
+                                   (- before (- allowed *algebra-work-left*))))
+    (if (eq answer 'too-large) nil answer)))
+
+(defun algebra-factors-so-far (branch kernels)
+  "Of the shortest element that has several, of what was found of the basis of the BRANCH, which
+was not split at it; it is noted."
+  (let ((shortest (sort (set-difference (remove-if-not #'algebra-free-of-z-p
+                                                       (coerce *algebra-growing-basis* 'list))
+                                        (algebra-branch-split branch) :test #'equal)
+                        #'< :key #'length)))
+    (algebra-within-bounds
+     1 (lambda () (loop for p in shortest
+                        for factors = (algebra-element-factors p kernels)
+                        when factors
+                          do (push p (algebra-branch-split branch))
+                             (return factors))))))
 
 (defun algebra-not-contained (components)
   "(basis generators . dimension) of those that lie in no other of a higher dimension."
   (flet ((contained-p (a b)
            (and (cddr a) (cddr b) (< (cddr a) (cddr b))
-                (notany (lambda (p) (algebra-divided-rest p (first a))) (second b)))))
+                (algebra-within-bounds
+                 1 (lambda () (notany (lambda (p) (algebra-divided-rest p (first a)))
+                                      (second b)))))))
     (loop for a in components
           unless (some (lambda (b) (contained-p a b)) components) collect a)))
 
@@ -87,7 +132,9 @@ sentence where there is too much."
   "(basis generators . dimension) of the closure; nil where it is empty."
   (let ((closure (remove-if-not #'algebra-free-of-z-p basis)))
     (unless (algebra-everywhere-nonzero-p closure)
-      (list* closure (algebra-ideal-generators closure) (algebra-dimension closure n)))))
+      (list* closure
+             (or (algebra-within-bounds 1 (lambda () (algebra-ideal-generators closure))) closure)
+             (algebra-dimension closure n)))))
 
 (defun algebra-first-branch (polynomials apart count)
   (let ((one (list (cons (make-list (1+ count) :initial-element 0) 1))))
@@ -106,7 +153,8 @@ sentence where there is too much."
 
 (defun algebra-basis-of-branch (branch)
   (let ((basis (algebra-basis-of (algebra-branch-new branch) (algebra-branch-elements branch))))
-    (make-algebra-branch :elements basis :product (algebra-branch-product branch))))
+    (make-algebra-branch :elements basis :product (algebra-branch-product branch)
+                         :split (algebra-branch-split branch))))
 
 (defun algebra-factors-in (basis kernels)
   "Of the least element that has several."
@@ -139,6 +187,7 @@ sentence where there is too much."
   (flet ((without-z (polynomials) (remove-if-not #'algebra-free-of-z-p polynomials)))
     (make-algebra-branch :elements (without-z (algebra-branch-elements branch))
                          :product product
+                         :split (algebra-branch-split branch)
                          :new (append (without-z (algebra-branch-new branch))
                                       (list (algebra-inverse-equation product))))))
 

@@ -14,6 +14,7 @@
   "true: monomials in the order of their degrees (graded, reversed); first: by the first exponent,
 then so; false: lexicographic.")
 (defvar *algebra-work-left* 0 "how many coefficients may still be formed")
+(defvar *algebra-growing-basis* #() "what has been found of the last basis")
 (defvar *algebra-taken* nil "polynomials in parameters that were taken as not zero")
 
 ;;; Monomials
@@ -90,16 +91,27 @@ then so; false: lexicographic.")
              (loop for (monomial . a) in p collect (cons monomial (ptimes c a))))))
 
 (defun algebra-count-work (p)
-  (decf *algebra-work-left*
-        (loop for (nil . a) in p
-              sum (if (integerp a) (1+ (ash (integer-length a) -6)) (* 4 (algebra-monomials a)))))
+  (algebra-spend (loop for (nil . a) in p
+                       sum (if (integerp a)
+                               (1+ (ash (integer-length a) -6))
+                               (* 4 (algebra-monomials a))))))
+
+(defun algebra-spend (work)
+  #-sbcl (core-watch)
+  (decf *algebra-work-left* work)
   (when (minusp *algebra-work-left*) (throw 'algebra-too-large 'too-large)))
+
+(defun algebra-shared-divisor (a b)
+  "The greatest divisor of two coefficients; of polynomials it costs about as much as a product."
+  (unless (or (integerp a) (integerp b))
+    (algebra-spend (ash (* (algebra-monomials a) (algebra-monomials b)) -3)))
+  (pgcd a b))
 
 (defun algebra-content-of (p)
   (let ((content 0))
     (loop for (nil . a) in p
           until (eql content 1)
-          do (setq content (pgcd content a)))
+          do (setq content (algebra-shared-divisor content a)))
     content))
 
 (defun algebra-without-content (p)
@@ -117,7 +129,7 @@ then so; false: lexicographic.")
 
 (defun algebra-cancelling (a b)
   "c and d with c*A = d*B, without a common factor."
-  (let ((common (pgcd a b)))
+  (let ((common (algebra-shared-divisor a b)))
     (values (pquotient b common) (pquotient a common))))
 
 (defun algebra-take (coefficient)
@@ -162,6 +174,7 @@ then so; false: lexicographic.")
 come from pairs of more than a DEGREE."
   (let ((basis (algebra-growing known))
         (pairs nil))
+    (setq *algebra-growing-basis* basis)
     (dolist (p polynomials)
       (setq pairs (algebra-joined-to-basis (algebra-rest-of p basis) basis pairs)))
     (loop while (and pairs

@@ -14,7 +14,17 @@
 (defun archive-rights (equations) (mapcar #'third (cdr equations)))
 
 (defun archive-fact-names (facts)
-  (reduce #'union (mapcar #'archive-names-in (cdr facts)) :initial-value '()))
+  (archive-each-once (loop for fact in (cdr facts) append (archive-names-in fact))))
+
+(defun archive-each-once (names &optional others)
+  "NAMES, thousands perhaps, each once; those among OTHERS left out."
+  (if (or others (nthcdr 30 names))
+      (let ((met (make-hash-table :test #'eq)))
+        (dolist (name others) (setf (gethash name met) t))
+        (loop for name in names
+              unless (gethash name met)
+                collect (progn (setf (gethash name met) t) name)))
+      (remove-duplicates names :from-end t)))
 
 (defun archive-law-names (laws)
   "Names that the right sides of laws use, their arguments aside."
@@ -28,7 +38,7 @@
         ((archive-head-p value '%integrate '$integrate)
          (union (remove (third value) (archive-used-names (second value)))
                 (reduce #'union (mapcar #'archive-used-names (cdddr value)) :initial-value '())))
-        (t (reduce #'union (mapcar #'archive-used-names (cdr value)) :initial-value '()))))
+        (t (archive-each-once (loop for part in (cdr value) append (archive-used-names part))))))
 
 (defun archive-used-by (type value)
   "The names that a key's VALUE uses."
@@ -110,8 +120,7 @@ labels of branches, or values where there are none."
 (defun archive-free-symbols (kind description)
   "The names that DESCRIPTION uses and does not declare, sorted."
   (multiple-value-bind (declared used) (archive-declared-and-used kind description)
-    (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared)))
-          #'string<)))
+    (sort (mapcar #'core-spelling (archive-each-once used declared)) #'string<)))
 
 (defun archive-warn-free-symbols (kind description)
   (let ((free (archive-free-symbols kind description)))

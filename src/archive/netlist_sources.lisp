@@ -17,6 +17,9 @@
   (let ((dc "0") (wave nil))
     (loop while fields
           do (let* ((field (pop fields)) (word (string-downcase field)))
+               (when (and (member word '("dc" "ac") :test #'string=)
+                          (equal (first fields) "="))
+                 (pop fields))
                (cond ((string= word "dc")
                       (setq dc (archive-net-value (archive-net-next field fields) scope))
                       (pop fields))

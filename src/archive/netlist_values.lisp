@@ -80,8 +80,14 @@ name in small letters, gives the text of its value."
       (when (>= position end)
         (return (format nil "~{~a~}" (nreverse pieces))))
       (multiple-value-bind (piece after) (archive-net-piece text position end scope)
+        (when (archive-net-would-grow-together-p (first pieces) piece) (push " " pieces))
         (push piece pieces)
         (setq position after)))))
+
+(defun archive-net-would-grow-together-p (before piece)
+  "Whether BEFORE and PIECE side by side would be one word: 1 2 is not 12."
+  (flet ((word-p (c) (or (archive-word-p c) (char= c #\.))))
+    (and before (word-p (char before (1- (length before)))) (word-p (char piece 0)))))
 
 (defun archive-net-piece (text from end scope)
   "Two values: the token at FROM in the archive's words, and where it ends."

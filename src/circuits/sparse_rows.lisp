@@ -49,6 +49,14 @@
 
 ;; Full rows; a matrix without rows or columns is matrix()
 
+(defun $circuits_diagonal_of (matrix)
+  "The diagonal of MATRIX where nothing stands beside it, else false."
+  (loop for (nil . row) in (cdr matrix) for place from 0
+        unless (loop for entry in row for k from 0 always (or (= k place) (eql entry 0)))
+          do (return nil)
+        collect (nth place row) into diagonal
+        finally (return (cons '(mlist simp) diagonal))))
+
 (defun $circuits_products (rows others)
   "A row for each of ROWS: its products with each of OTHERS."
   (cons '(mlist simp)

@@ -115,6 +115,10 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
   (mapc #'funcall (reverse *core-afterwards*))
   (setq *core-afterwards* '()))
 
+(defun $core_words (&rest items)
+  "sconcat, but the same in all versions of Maxima and under all flags of printing."
+  (core-words items))
+
 (defun $core_error (&rest items) (core-signal (core-words items)))
 
 (defun $core_undecided (&rest items) (core-undecided "~a" (core-words items)))
