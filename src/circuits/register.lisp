@@ -121,13 +121,16 @@
 
 ;;; Linear circuits have Lagrange's function, and with it every form of equations: in loop charges
 
-(core-public "LoopLagrangian" :kinds '("circuit"))
-(core-rule "LoopLagrangian" '("circuit") "circuits/lagrangian" "circuits_loop_lagrangian"
-  "circuit")
+;; With `eliminate' in the variables that have inertia, dissipation and potential energy both
 
-(core-public "NodeLagrangian" :kinds '("circuit"))
-(core-rule "NodeLagrangian" '("circuit") "circuits/lagrangian" "circuits_node_lagrangian"
-  "circuit")
+(loop for (name quantity function)
+        in '(("LoopLagrangian" "loop_form" "circuits_loop_lagrangian")
+             ("NodeLagrangian" "node_form" "circuits_node_lagrangian"))
+      do (core-public name :options '("eliminate") :kinds '("circuit"))
+         (core-rule quantity '("circuit") "circuits/lagrangian" function "circuit")
+         (core-rule-same-as name '("circuit") quantity)
+         (core-rule-given '("eliminate" t) name '("circuit") "circuits/eliminated_variables"
+           "circuits_without_inertialess" quantity))
 
 (loop for (quantity field) in '(("Lagrangian" "L") ("coordinates" "variables") ("rayleigh" "R")
                                 ("forces" "Q"))
