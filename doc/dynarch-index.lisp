@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2383747182 126409
+;;; Made by tools/doc; checksum of doc/*.texi: 2241553724 126620
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -60,16 +60,16 @@
 ("Stability" . ("dynarch.info" 88757 5900 "Definitions for Analysis"))
 ("LyapunovTest" . ("dynarch.info" 94658 2812 "Definitions for Analysis"))
 ("SecondVariation" . ("dynarch.info" 97471 976 "Definitions for Analysis"))
-("RouthLyapunov" . ("dynarch.info" 98448 4297 "Definitions for Analysis"))
-("EliminateMultipliers" . ("dynarch.info" 102746 1741 "Definitions for Analysis"))
-("LinearIntegrals" . ("dynarch.info" 104488 1127 "Definitions for Analysis"))
-("QuadraticIntegrals" . ("dynarch.info" 105616 815 "Definitions for Analysis"))
-("PolynomialIntegrals" . ("dynarch.info" 106432 2023 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 108734 6393 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 115128 3906 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 119035 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 120998 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 125716 3304 "Definitions for Numerics"))
+("RouthLyapunov" . ("dynarch.info" 98448 4528 "Definitions for Analysis"))
+("EliminateMultipliers" . ("dynarch.info" 102977 1741 "Definitions for Analysis"))
+("LinearIntegrals" . ("dynarch.info" 104719 1127 "Definitions for Analysis"))
+("QuadraticIntegrals" . ("dynarch.info" 105847 815 "Definitions for Analysis"))
+("PolynomialIntegrals" . ("dynarch.info" 106663 2023 "Definitions for Analysis"))
+("Simulate" . ("dynarch.info" 108965 6393 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 115359 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 119266 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 121229 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 125947 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 824 930))
@@ -78,7 +78,7 @@
 ("Definitions for velocities" . ("dynarch.info" 6728 2005))
 ("Definitions for LinModel" . ("dynarch.info" 8867 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39523 21803))
-("Definitions for Analysis" . ("dynarch.info" 61458 46997))
-("Definitions for Numerics" . ("dynarch.info" 108590 20430))
+("Definitions for Analysis" . ("dynarch.info" 61458 47228))
+("Definitions for Numerics" . ("dynarch.info" 108821 20430))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))
