@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # tools/demo and tools/test need no make; these are their short names, and what is not run each time.
 
-.PHONY: demo test bench bench-peers bench-numerics bench-analysis bench-verdicts report report-full report-references fuzz test-maxima doc dist
+.PHONY: demo test bench bench-peers bench-numerics bench-analysis bench-circuits bench-verdicts report report-full report-references fuzz test-maxima doc dist
 
 demo:
 	@tools/demo
@@ -14,11 +14,12 @@ bench:
 	@bench/run
 
 # Chains by SymPy, symengine, CasADi (by pip into the user's cache) and by us, side by side, under ten minutes; then
-# bench-numerics and bench-analysis. doc/bench.md holds what they print.
+# bench-numerics, bench-analysis and bench-circuits. doc/bench.md holds what they print.
 bench-peers:
 	@bench/peers/run
 	@bench/numerics/run
 	@bench/analysis/run
+	@bench/circuits/run
 
 # Runs by us and by SciPy, heyoka, RADAU5, SUNDIALS, ngspice, Pinocchio and gcc (into the user's cache), side by side. About
 # half an hour.
@@ -28,6 +29,10 @@ bench-numerics:
 # Minors, characteristic polynomials, counts of roots and verdicts on chains by us, python-flint and SymPy, side by side. Three minutes.
 bench-analysis:
 	@bench/analysis/run
+
+# State equations of ladders by us and by Lcapy, side by side; graphs of many branches, the ring modulator. Four minutes.
+bench-circuits:
+	@bench/circuits/run
 
 # Verdicts on stability by doubles, bigfloats and exactly, beside the truth: a page and a plot. Three minutes.
 bench-verdicts:

@@ -160,5 +160,20 @@ END
 [ -f circuit.txt ] && grep -q '^1 -> 2 L L1 i1' circuit.txt && grep -q '^\[result MixedPotential\]' circuit.txt
 expect 'a circuit is asked row by row' $?
 
+# the paper's list on several lines with its full stop: the sign that it implies is said
+graph() {
+  printf '%s\n' '[L1 > 0, C1 > 0]' '[f1]' '' '' '{{{1, 2}, L1}, {{1, 2}, C1},' '{{1, 2}, f1}}.' . '' '' '' ''
+}
+rm -f circuit.txt
+{ graph; echo; echo; } | ask 'MixedPotential()'
+tr -d '\n' <answer | grep -q 'implies sign = generator' && grep -q '^graph = ' circuit.txt && grep -q '^\[result MixedPotential\]' circuit.txt
+expect 'a graph as a list, and what it implies' $?
+
+# a potential without branches
+rm -f circuit.txt
+{ printf '%s\n' '[L > 0, C > 0, R > 0]' '' '' '' '' '[i = L, u = C]' '-i*u - R*i^2/2' . '' '' '' ''; echo; echo; } | ask 'StateEquations()'
+tr -d ' \n' <answer | grep -q "L\*'diff(i,t,1)=(-u)-R\*i" && grep -q '^\[result StateEquations\]' circuit.txt
+expect 'a potential with its states alone' $?
+
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

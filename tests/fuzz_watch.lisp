@@ -58,6 +58,17 @@
   "A person who thinks for SECONDS."
   (core-waiting (lambda () (sleep seconds))))
 
+(defun fuzz-watch-load (depth seconds)
+  "What loads a part that loads others, DEPTH of them in each other, the innermost for SECONDS."
+  (core-unhurried (lambda ()
+                    (if (= depth 1) (sleep seconds) (fuzz-watch-load (1- depth) seconds)))))
+
+(defun fuzz-watch-growth (depth seconds)
+  "How many seconds more the call has left after such a load."
+  (let ((left (core-seconds-left)))
+    (fuzz-watch-load depth seconds)
+    (coerce (- (core-seconds-left) left) 'double-float)))
+
 (defun fuzz-watch-call (function &optional limit)
   "Calls FUNCTION on the file of this process; what it says goes nowhere."
   (let ((*standard-output* (make-broadcast-stream)))

@@ -45,7 +45,7 @@
                 collect (list '(mlist simp) (rule-function rule) count))))
 
 (defun register-known-names ()
-  "Names of quantities, arguments, options and keys of [system]."
+  "Names of quantities, arguments, options, keys of [system] and what its reader marks."
   (append (loop for name being the hash-keys of *core-rules* collect name)
           (loop for public being the hash-values of *core-publics*
                 append (core-public-options public)
@@ -53,7 +53,7 @@
                 append (loop for form in (core-public-forms public) append (cdr form)))
           (loop for kind in (core-kind-names)
                 append (mapcar #'archive-key-name (archive-option-keys kind)))
-          '("description" "form" "coordinates")))
+          '("description" "form" "coordinates" "potential_alone")))
 
 (defun $register_unknown_inputs ()
   "[quantity, input] of rules that take what nothing gives."

@@ -7,24 +7,26 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/normal" "algebra/sign_by_parts" "algebra/sign_by_proof"
+  (core-require "algebra/size" "algebra/normal" "algebra/points_of_facts" "algebra/sign_by_parts"
+                "algebra/sign_by_proof"
                 "algebra/factoring" "algebra/evaluate" "algebra/noun_values" "algebra/root_kernels"
                 "algebra/scan"))
 
-(defparameter *algebra-kept-knowledge* 16 "For how many lists of facts knowledge is kept.")
-(defvar *algebra-knowledges* '() "Knowledge of lists of facts used lately, newest first.")
+(defparameter *algebra-kept-knowledge* 500 "For how many lists of facts knowledge is kept.")
+(defvar *algebra-knowledges* (make-hash-table :test 'equal) "Knowledge by lists of facts.")
 
 (defun algebra-what-is-known ()
   "What is known here; kept for the next question under the same facts."
-  (let* ((facts (core-facts))
-         (kept (or (find facts *algebra-knowledges* :key #'knowledge-facts :test #'equal)
-                   (algebra-learned facts))))
-    (setq *algebra-knowledges*
-          (cons kept (remove kept (subseq *algebra-knowledges* 0
-                                          (min (1- *algebra-kept-knowledge*)
-                                               (length *algebra-knowledges*)))
-                             :test #'eq)))
-    kept))
+  (let* ((facts (core-facts)) (known (gethash facts *algebra-knowledges*)))
+    (cond ((null known)
+           (when (>= (hash-table-count *algebra-knowledges*) *algebra-kept-knowledge*)
+             (clrhash *algebra-knowledges*))
+           (setf (gethash facts *algebra-knowledges*) (algebra-learned facts)))
+          ((eq facts (knowledge-facts known)) known)
+          (t ; thousands of facts are compared once: the next question finds this very list
+           (remhash facts *algebra-knowledges*)
+           (setf (knowledge-facts known) facts
+                 (gethash facts *algebra-knowledges*) known)))))
 
 (defun algebra-name-signs (facts)
   "((name . sign) ..) that follow from FACTS, or :contradiction."
@@ -42,7 +44,8 @@
     (clrhash (knowledge-memo knowledge))
     (unless (knowledge-contradiction knowledge)
       (setf (knowledge-contradiction knowledge)
-            (and (knowledge-sums knowledge) (algebra-gaps-contradict-p (algebra-gaps knowledge)))))
+            (and (knowledge-sums knowledge) (null (algebra-search-under facts))
+                 (algebra-gaps-contradict-p (algebra-gaps knowledge)))))
     knowledge))
 
 (defun algebra-learn-all (products)
@@ -64,7 +67,10 @@
          (gaps (algebra-gaps *algebra-knowledge*)) (found nil))
     (when (and (<= (length sums) 10) (<= (length names) 8))
       (dolist (name names found)
-        (let ((sign (algebra-certified-sign name gaps)))
+        (let ((sign (if (algebra-both-signs-seen-p
+                         name (knowledge-facts *algebra-knowledge*))
+                        '$unknown
+                        (algebra-certified-sign name gaps))))
           (unless (eq sign '$unknown)
             (setq found t)
             (algebra-learn name sign)))))))
@@ -169,16 +175,14 @@
   (and (not (eq a '$unknown)) (not (eq b '$unknown))
        (null (intersection (algebra-sign-values a) (algebra-sign-values b)))))
 
-(defun algebra-sign-values (sign)
-  (ecase sign
-    ($pos '(1)) ($neg '(-1)) ($zero '(0)) ($pz '(0 1)) ($nz '(-1 0)) ($pn '(-1 1))))
-
 (defun algebra-learn-item (item sign)
-  (let ((entry (assoc item (knowledge-items *algebra-knowledge*) :test #'alike1)))
+  (let ((entry (algebra-entry-of-item item)))
     (if entry
         (setf (cdr entry) (algebra-agree (cdr entry) sign))
-        (push (cons item (algebra-agree (algebra-part-sign item) sign))
-              (knowledge-items *algebra-knowledge*)))))
+        (let ((learned (cons item (algebra-agree (algebra-part-sign item) sign))))
+          (push learned (knowledge-items *algebra-knowledge*))
+          (when (symbolp item)
+            (setf (gethash item (knowledge-names *algebra-knowledge*)) learned))))))
 
 (defun algebra-learn-sum (sum sign)
   (let* ((plain ($expand sum))

@@ -10,7 +10,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/nouns" "algebra/zero" "algebra/known_signs"
-                "algebra/sign_by_proof"
+                "algebra/points_of_facts" "algebra/sign_by_proof"
                 "algebra/sign_by_bounds" "algebra/packed_polynomials" "algebra/sign_by_parts"))
 
 (defvar *algebra-discriminants-left* 2 "How deep discriminants of discriminants may be asked.")
@@ -22,10 +22,20 @@
 
 (defun $algebra_positive (e)
   "true, false or unknown"
-  (case ($algebra_sign e)
-    ($pos t)
-    (($neg $zero $nz) nil)
-    (t '$unknown)))
+  (if (algebra-both-signs-seen-p e (core-facts))
+      '$unknown
+      (case ($algebra_sign e)
+        ($pos t)
+        (($neg $zero $nz) nil)
+        (t '$unknown))))
+
+(defun $algebra_sign_among (e signs)
+  "Whether the sign of E is proved to be one of SIGNS; where a point shows another no proof is
+sought."
+  (and (subsetp (algebra-seen-signs e (core-facts))
+                (reduce #'union (cdr signs) :key #'algebra-sign-values :initial-value '()))
+       (member ($algebra_sign e) (cdr signs))
+       t))
 
 (defun $algebra_nonzero (e)
   "Whether E cannot vanish under the facts: true; false where it vanishes identically; or unknown."
@@ -38,23 +48,26 @@
   ;; algebra_by_short_proofs(e): the value of e, where proofs as sums of products stay short; what
   ;; has no such one is unknown. Nothing of what is
   ;; found so is kept.
-  (let ((*algebra-certificate-size* 200) (*algebra-knowledges* '())
+  (let ((*algebra-certificate-size* 200)
+        (*algebra-knowledges* (make-hash-table :test 'equal))
         (*algebra-discriminants-left* 1))
     (meval (second form))))
 
 (defun $algebra_contradictory (conditions)
   "Whether CONDITIONS, a list, are proved to contradict the facts or each other."
-  (let ((relations (core-plain-relations (cdr conditions))))
-    (and (or (let ((*core-facts* (append relations (core-facts))))
-               (knowledge-contradiction (algebra-what-is-known)))
-             (some (lambda (relation) (algebra-refuted-p relation (remove relation relations)))
+  (let* ((relations (core-plain-relations (cdr conditions)))
+         (*core-facts* (append relations (core-facts))))
+    (and (null (algebra-search-under *core-facts*))
+         (or (knowledge-contradiction (algebra-what-is-known))
+             (some (lambda (relation)
+                     (algebra-refuted-p relation (remove relation *core-facts*)))
                    relations))
          t)))
 
-(defun algebra-refuted-p (relation others)
-  "Whether RELATION is proved to fail where the OTHERS and the facts hold."
+(defun algebra-refuted-p (relation facts)
+  "Whether RELATION is proved to fail where FACTS hold."
   (multiple-value-bind (e sign) (core-fact-difference relation)
-    (let ((*core-facts* (append others (core-facts))))
+    (let ((*core-facts* facts))
       (algebra-opposed-p sign ($algebra_sign e)))))
 
 (defun algebra-sign (e)
@@ -66,10 +79,12 @@
             (algebra-remembered-sign e sign)))))
 
 (defun algebra-remembered-sign (e plain)
-  (let ((memo (knowledge-memo *algebra-knowledge*)))
+  "What is not decided is remembered for questions of the same depth alone."
+  (let ((memo (knowledge-memo *algebra-knowledge*)) (here (cons *algebra-discriminants-left* e)))
     (or (gethash e memo)
-        (setf (gethash e memo)
-              (algebra-both-signs plain (algebra-quotient-sign e))))))
+        (gethash here memo)
+        (let ((sign (algebra-both-signs plain (algebra-quotient-sign e))))
+          (setf (gethash (if (member sign '($pos $neg $zero)) e here) memo) sign)))))
 
 (defun algebra-quotient-sign (e)
   "By numerator and denominator in normal form."
@@ -107,6 +122,8 @@
         (algebra-first-answer (list* #'algebra-simple-sign #'algebra-root-free-sign
                                      #'algebra-sign-by-one-fact #'algebra-shifted-sign
                                      (and (< size 250)
+                                          (not (algebra-both-signs-seen-p
+                                                factor (knowledge-facts *algebra-knowledge*)))
                                           (list #'algebra-discriminant-sign
                                                 #'algebra-root-balance-sign
                                                 #'algebra-proved-sign)))

@@ -14,6 +14,7 @@
 (defstruct (algebra-knowledge (:conc-name knowledge-))
   facts           ; the relations it was made from
   (items '())     ; ((name or kernel . sign) ..)
+  (names (make-hash-table :test #'eq)) ; the same entries by their names
   (sums '())      ; ((expanded sum . sign) ..)
   (contradiction nil)
   (memo (make-hash-table :test #'equal)))
@@ -43,9 +44,13 @@
 ;;; What the facts say
 
 (defun algebra-known-item (e)
-  (if *algebra-knowledge*
-      (or (cdr (assoc e (knowledge-items *algebra-knowledge*) :test #'alike1)) '$unknown)
-      '$unknown))
+  (or (and *algebra-knowledge* (cdr (algebra-entry-of-item e))) '$unknown))
+
+(defun algebra-entry-of-item (e)
+  "What is known of E, a name or a kernel: (E . sign), or nil. Names may be thousands."
+  (if (symbolp e)
+      (gethash e (knowledge-names *algebra-knowledge*))
+      (assoc e (knowledge-items *algebra-knowledge*) :test #'alike1)))
 
 (defun algebra-known-sum (sum)
   (let ((sums (and *algebra-knowledge* (knowledge-sums *algebra-knowledge*))))
@@ -66,6 +71,10 @@
         ((subsetp '($nz $pn) (list a b)) '$neg)
         ((member a '($pos $neg $zero)) a)
         (t b)))
+
+(defun algebra-sign-values (sign)
+  (ecase sign
+    ($pos '(1)) ($neg '(-1)) ($zero '(0)) ($pz '(0 1)) ($nz '(-1 0)) ($pn '(-1 1))))
 
 (defun algebra-opposite-sign (sign)
   (case sign

@@ -14,8 +14,9 @@ sought, [] being the variables."
 the constraints last; `variables' their unknowns, multipliers of the constraints among them, and
 `coordinates' these without the multipliers. `values' are [x'' = .., x' = .., x = ..], with those of
 parameters that the solution names, and `where' is put in after them. Coordinates that are
-`ignorable' do not count in a verdict."
-  equations variables coordinates values where (ignorable '((mlist simp))))
+`ignorable' do not count in a verdict. Of a linear system that is `moved' from outside the variables
+are deviations from any motion."
+  equations variables coordinates values where (ignorable '((mlist simp))) (moved nil))
 
 (core-record analysis-found
   "What solving gives: solutions [x = .., ..], sentences on what is left, factors taken as

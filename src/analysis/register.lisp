@@ -80,9 +80,12 @@
 (core-rule "special_cases_sought" :any "analysis/motion_records" "analysis_special_cases"
   *analysis-where* *analysis-laws* *analysis-unknowns*)
 (core-rule "undisturbed_motion" '("equations") "analysis/second_order" "analysis_equations_motion"
+  "equations" *analysis-variables* "solution" "special_cases_sought")
+(core-rule "undisturbed_motion" (remove "circuit" *analysis-states* :test #'string=)
+  "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
-(core-rule "undisturbed_motion" *analysis-states* "analysis/given_solution" "analysis_state_motion"
-  "state_equations" *analysis-variables* "solution" "special_cases_sought")
+(core-rule "undisturbed_motion" '("circuit") "analysis/forced_motion" "analysis_circuit_motion"
+  "state_equations" *analysis-variables* (list "solution" *analysis-none*) "special_cases_sought")
 (core-rule "undisturbed_motion" *analysis-motions* "analysis/given_solution"
   "analysis_lagrange_motion" "LagrangeEquations" "coordinates" "solution" "special_cases")
 (core-rule "charge_motion" '("circuit") "analysis/second_order" "analysis_charge_motion"

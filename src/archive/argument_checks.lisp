@@ -275,7 +275,11 @@ take; MOVING are the names that move in the archive of the call."
     (loop for (name . value) in pairs do (archive-check-argument name value kind))
     (setq moving (append moving (archive-moving-arguments given)))
     (loop for (name . value) in pairs
-          do (archive-check-spellings value moving
+          do (archive-check-spellings value
+                                      ;; u(R) is a voltage, though u be a state too
+                                      (if (eq (archive-argument-type name kind) :quantity)
+                                          '()
+                                          moving)
                                       (lambda (text) (core-error "~a: ~a" name text)))
              (when (string= name "where")
                (archive-check-special-case value moving

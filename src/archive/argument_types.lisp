@@ -41,6 +41,7 @@ and always have values."
 
 (defparameter *archive-argument-types*
   '((:formula archive-as-formula "a formula")
+    (:quantity archive-as-formula "a state, u(label), i(label) or v(node)")
     (:shape archive-as-shape "a formula, or a list, equation or matrix of formulas")
     (:variables archive-as-variables "a list of names, such as [phi, theta]")
     (:variable archive-as-variable "a name, such as lambda")

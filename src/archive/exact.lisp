@@ -143,7 +143,8 @@
     exact))
 
 ;;; Sums and products as nouns, 'sum(x^k, k, 1, 3). One without a definite number of terms would be
-;;; taken for an open function of its parts: archive/argument_checks refuses it.
+;;; taken for an open function of its parts: archive/argument_checks refuses it. Derivatives and
+;;; integrals as verbs, which a list that is quoted as a whole holds: there diff is 'diff.
 
 (defparameter *archive-most-terms* 10000 "The most terms of a sum that is written out.")
 
@@ -155,9 +156,10 @@
        (integerp (fifth e))))
 
 (defun archive-written-out (e)
-  "E with its definite sums and products carried out, from the inside."
-  (cond ((not (or (archive-contains-p e '%sum) (archive-contains-p e '%product))) e)
+  "E with its definite sums and products carried out, and nouns for verbs, from the inside."
+  (cond ((loop for word in '(%sum %product $diff $integrate) never (archive-contains-p e word)) e)
         ((archive-definite-sum-p e) (archive-sum-written-out e))
+        ((archive-head-p e '$diff '$integrate) (archive-as-noun e))
         (t (archive-with-parts e (mapcar #'archive-written-out (cdr e))))))
 
 (defun archive-sum-written-out (e)
@@ -168,6 +170,15 @@
           collect (archive-written-out (maxima-substitute k index body)) into terms
           finally (return (if (eq (caar e) '%sum) (addn terms nil) (muln terms nil))))))
 
+(defun archive-as-noun (e)
+  "'diff(e, x, n) for diff(e, x, n), also of a derivative by the same name; 'integrate alike."
+  (destructuring-bind (body &optional x (n 1) &rest more) (mapcar #'archive-written-out (cdr e))
+    (cond ((eq (caar e) '$integrate) (list* '(%integrate simp) body (nthcdr 2 e)))
+          ((or more (not (archive-symbol-p x)) (not (integerp n))) e)
+          ((and (archive-head-p body '%derivative) (eq (third body) x) (null (nthcdr 4 body)))
+           (list '(%derivative simp) (second body) x (+ n (fourth body))))
+          (t (list '(%derivative simp) body x n)))))
+
 (defun archive-sums-written-out (arguments)
-  "ARGUMENTS of a call with their definite sums and products carried out."
+  "ARGUMENTS of a call with their definite sums and products carried out, and nouns for verbs."
   (archive-with-plain-simplifier (mapcar #'archive-written-out arguments)))

@@ -14,7 +14,17 @@
 (defun archive-rights (equations) (mapcar #'third (cdr equations)))
 
 (defun archive-fact-names (facts)
-  (reduce #'union (mapcar #'archive-names-in (cdr facts)) :initial-value '()))
+  (archive-each-once (loop for fact in (cdr facts) append (archive-names-in fact))))
+
+(defun archive-each-once (names &optional others)
+  "NAMES, thousands perhaps, each once; those among OTHERS left out."
+  (if (or others (nthcdr 30 names))
+      (let ((met (make-hash-table :test #'eq)))
+        (dolist (name others) (setf (gethash name met) t))
+        (loop for name in names
+              unless (gethash name met)
+                collect (progn (setf (gethash name met) t) name)))
+      (remove-duplicates names :from-end t)))
 
 (defun archive-law-names (laws)
   "Names that the right sides of laws use, their arguments aside."
@@ -28,7 +38,7 @@
         ((archive-head-p value '%integrate '$integrate)
          (union (remove (third value) (archive-used-names (second value)))
                 (reduce #'union (mapcar #'archive-used-names (cdddr value)) :initial-value '())))
-        (t (reduce #'union (mapcar #'archive-used-names (cdr value)) :initial-value '()))))
+        (t (archive-each-once (loop for part in (cdr value) append (archive-used-names part))))))
 
 (defun archive-used-by (type value)
   "The names that a key's VALUE uses."
@@ -48,7 +58,7 @@
     (:names (cdr value))
     (:facts (archive-fact-names value))
     (:assignments (archive-lefts value))
-    (:states (append (archive-lefts value) (archive-rights value)))
+    (:states (archive-lefts value))
     (:laws (mapcar #'caar (archive-lefts value)))
     (:spin (cddr value))
     (:algebra (mapcar #'core-symbol '("M1" "M2" "M3" "g1" "g2" "g3")))
@@ -71,12 +81,16 @@
 ;; All names
 
 (defun archive-branch-names (description)
-  "Two values: names that the branches declare, and names that their values use."
-  (let ((rows (cdr ($core_get description '$branches '((mlist))))))
+  "Two values: names that the branches declare, and names that their values use; `states' give
+labels of branches, or values where there are none."
+  (let ((rows (cdr ($core_get description '$branches '((mlist)))))
+        (stated (archive-rights ($core_get description '$states '((mlist))))))
     (values (append (mapcan #'archive-row-states rows)
+                    (and rows (copy-list stated))
                     (loop for row in rows when (archive-equation-p row) collect (second row)))
             (archive-used-names
              (archive-list (append (mapcan #'archive-branch-value rows)
+                                   (and (null rows) (copy-list stated))
                                    (archive-last-fields ($core_get description '$couplings nil))
                                    (archive-last-fields
                                     ($core_get description '$transformers nil))))))))
@@ -106,8 +120,7 @@
 (defun archive-free-symbols (kind description)
   "The names that DESCRIPTION uses and does not declare, sorted."
   (multiple-value-bind (declared used) (archive-declared-and-used kind description)
-    (sort (mapcar #'core-spelling (remove-duplicates (set-difference used declared)))
-          #'string<)))
+    (sort (mapcar #'core-spelling (archive-each-once used declared)) #'string<)))
 
 (defun archive-warn-free-symbols (kind description)
   (let ((free (archive-free-symbols kind description)))
@@ -127,6 +140,8 @@
     (append (called "a coordinate" (of-key '$coordinates))
             (called "a variable" (of-key '$variables))
             (called "the angle of a rotor" (archive-rotor-angles description))
+            (called "the state of a branch"
+                    (archive-lefts ($core_get description '$states '((mlist)))))
             (called "the state of a branch"
                     (loop for row in (cdr ($core_get description '$branches '((mlist))))
                           append (archive-row-own-state row))))))

@@ -8,9 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/netlist_laws" "archive/netlist_lines" "archive/netlist_parts"
-                "archive/netlist_sources" "archive/netlist_values" "archive/parser"
-                "archive/tokens"))
+  (core-require "archive/netlist_diodes" "archive/netlist_laws" "archive/netlist_lines"
+                "archive/netlist_parts" "archive/netlist_sources" "archive/netlist_values"
+                "archive/parser" "archive/tokens"))
 
 (defstruct (archive-net-sheet (:conc-name net-sheet-))
   "What becomes of a netlist: texts of rows, newest first."
@@ -176,6 +176,7 @@
   "E, G: two nodes, two that control, the gain."
   (destructuring-bind (&optional tail head a b gain &rest more) (net-element-fields element)
     (declare (ignore tail head))
+    (archive-net-refuse-formula element a)
     (archive-net-none-left element more)
     (let ((value (archive-net-element-value element gain)))
       (archive-net-put-branch sheet element
@@ -187,11 +188,18 @@
   "F, H: two nodes, the source of voltage whose current controls, the gain."
   (destructuring-bind (&optional tail head source gain &rest more) (net-element-fields element)
     (declare (ignore tail head))
+    (archive-net-refuse-formula element source)
     (archive-net-none-left element more)
     (archive-net-put-branch sheet element (string (char-upcase (archive-net-letter element)))
                             (archive-net-element-value element gain)
                             (archive-net-other-label sheet element source #\v
                                                      "a source of voltage"))))
+
+(defun archive-net-refuse-formula (element field)
+  (when (member field '("poly" "value" "vol" "cur" "table" "laplace") :test #'equalp)
+    (archive-net-fault "~a: ~a is not read, a constant gain is; a formula of the branch's own ~
+                        voltage, of its own current, or of the time, stands in a source B"
+                       (net-element-name element) field)))
 
 (defun archive-net-other-label (sheet element name letter what)
   (or (and name (plusp (length name)) (char-equal (char name 0) letter)
@@ -213,20 +221,57 @@
 
 (defun archive-net-put-law (sheet element type variable formula)
   "A branch of TYPE, RU or RI, with the law FORMULA of VARIABLE."
-  (let ((law (format nil "f_~a" (archive-net-label sheet element))))
+  (archive-net-put-branch sheet element type
+                          (archive-net-new-law sheet (archive-net-label sheet element) variable
+                                               formula)))
+
+(defun archive-net-new-law (sheet label variable formula)
+  "The name of a law of the branch LABEL."
+  (let ((law (format nil "f_~a" label)))
     (push (format nil "~a(~a) = ~a" law variable formula) (net-sheet-laws sheet))
-    (archive-net-put-branch sheet element type law)))
+    law))
 
 (defun archive-net-diode (sheet element)
-  "D1 a k model [area]"
-  (destructuring-bind (&optional anode cathode model area &rest more) (net-element-fields element)
-    (declare (ignore anode cathode))
+  "D1 a k model [area], or area = 2"
+  (destructuring-bind (&optional anode cathode model area &rest more)
+      (archive-net-without-word (net-element-fields element) "area" 3)
     (unless model (archive-net-fault "~a has no model" (net-element-name element)))
     (archive-net-none-left element more)
-    (archive-net-put-law
-     sheet element "RU" "u"
-     (archive-net-diode-law element model
-                            (if area (archive-net-element-value element area) "1")))))
+    (archive-net-put-diode sheet element (list anode cathode)
+                           (archive-net-diode-model element model)
+                           (if area (archive-net-element-value element area) "1"))))
+
+(defun archive-net-without-word (fields word place)
+  "FIELDS without WORD = at their PLACE."
+  (if (and (string-equal (nth place fields) word) (equal (nth (1+ place) fields) "="))
+      (append (subseq fields 0 place) (nthcdr (+ 2 place) fields))
+      fields))
+
+(defun archive-net-put-diode (sheet element nodes model area)
+  "The junction of the diode between NODES, behind the resistance of its leads at a node of its own,
+and its capacitance."
+  (let* ((label (archive-net-label sheet element))
+         (resistance (archive-net-diode-resistance model area))
+         (capacitance (archive-net-diode-capacitance model area))
+         (ends (archive-net-ends sheet element)) (inner (first ends)))
+    (flet ((put (word tail head type value)
+             (push (format nil "~a: ~a -> ~a   ~a  ~a" word tail head type value)
+                   (net-sheet-branches sheet)))
+           (named (ending) (archive-net-free-name sheet (format nil "~a_~a" label ending))))
+      (when resistance
+        (setq inner (named "j"))
+        (put (named "RS") (first ends) inner "R" resistance))
+      (put label inner (second ends) "RU"
+           (archive-net-new-law sheet label "u" (archive-net-diode-law model area)))
+      (when capacitance
+        (let ((word (named "CJ")))
+          (push (list "C" (format nil "u_~a" word)
+                      (if resistance inner (archive-net-node (first nodes)
+                                                             (net-element-place element)))
+                      (archive-net-node (second nodes) (net-element-place element)))
+                (net-sheet-stores sheet))
+          (put word inner (second ends) "C"
+               (archive-net-new-law sheet word "u" capacitance)))))))
 
 (defun archive-net-behaviour (sheet element)
   "B1 a b I = expression, V = expression"

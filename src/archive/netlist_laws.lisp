@@ -1,48 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Laws of a netlist's nonlinear branches. A diode: i = IS*(exp(u/(N*Vt)) - 1) at 27 degrees. B, a
-;;; source whose current is a formula of its own voltage, whose voltage is one of its own current,
-;;; or either one of the time. A power of what may be negative is refused, unless its exponent is
-;;; an even number: programs differ on it.
+;;; Laws of a netlist's branches B: a source whose current is a formula of its own voltage, whose
+;;; voltage is one of its own current, or either one of the time. A power of what may be negative is
+;;; refused, unless its exponent is an even number: programs differ on it.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/netlist_lines" "archive/netlist_parts" "archive/netlist_values"
                 "archive/tokens"))
-
-(defparameter *archive-net-thermal*
-  (/ (* 138064852/100000000 30015/100) (* 16021766208/10000000000 10000))
-  "k*T/q in volts at T = 300.15 K, with ngspice's constants.")
-
-(defparameter *archive-net-diode-idle*
-  '("rs" "cjo" "cj0" "cj" "tt" "bv" "ibv" "vj" "m" "eg" "xti" "fc" "kf" "af" "tnom" "level")
-  "Parameters of a diode's model that its static law does not have; vj, m, fc, eg, xti say nothing
-while the others are 0.")
-
-(defun archive-net-diode-law (element model area)
-  (let* ((place (net-element-place element)) (saturation "(1/100000000000000)") (emission "1"))
-    (multiple-value-bind (found at) (archive-net-model model place)
-      (unless (string= (first found) "d")
-        (archive-net-fault "~a is no model of a diode" (archive-shown model)))
-      (loop for (name field) in (rest found)
-            for value = (archive-net-value field (net-place-scope at))
-            do (cond ((string-equal name "is") (setq saturation value))
-                     ((string-equal name "n") (setq emission value))
-                     (t (archive-net-check-idle name value)))))
-    (archive-net-spelled
-     (archive-net-parsed (format nil "~a*~a*(exp(u/(~a*~d/~d)) - 1)" area saturation emission
-                                 (numerator *archive-net-thermal*)
-                                 (denominator *archive-net-thermal*))))))
-
-(defun archive-net-check-idle (name value)
-  (unless (and (member name *archive-net-diode-idle* :test #'string-equal)
-               (or (string= value "0")
-                   (member name '("vj" "m" "eg" "xti" "fc" "kf" "af") :test #'string-equal)
-                   (and (string-equal name "level") (string= value "1"))
-                   (and (string-equal name "tnom") (string= value "27"))))
-    (archive-net-fault "the parameter ~a = ~a of a diode is not read; IS and N are" name value)))
-
-;;; B
 
 (defun archive-net-behaviour-law (element node)
   "Three values: the branch's type, the formula, and whether it is a law of the branch's own voltage

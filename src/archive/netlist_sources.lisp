@@ -17,6 +17,9 @@
   (let ((dc "0") (wave nil))
     (loop while fields
           do (let* ((field (pop fields)) (word (string-downcase field)))
+               (when (and (member word '("dc" "ac") :test #'string=)
+                          (equal (first fields) "="))
+                 (pop fields))
                (cond ((string= word "dc")
                       (setq dc (archive-net-value (archive-net-next field fields) scope))
                       (pop fields))
@@ -93,14 +96,14 @@
   (destructuring-bind (offset amplitude frequency &optional (delay "0") (damping "0") (phase "0"))
       numbers
     (let* ((later (archive-net-known delay))
-           (since (if (zerop later) "t" (format nil "(t - ~a)" (archive-net-written later))))
-           (value (format nil "~a + ~a*sin(2*%pi*~a*~a + %pi*~a/180)*exp(-~a*~a)"
-                          offset amplitude frequency since phase since damping)))
-      (archive-net-cases
-       (if (plusp later)
-           (list (list later (format nil "~a + ~a*sin(%pi*~a/180)" offset amplitude phase))
-                 (list nil value))
-           (list (list nil value)))))))
+           (since (if (plusp later) (archive-net-since later)
+                      (format nil "(t - ~a)" (archive-net-written later)))))
+      (format nil "~a + ~a*sin(2*%pi*~a*~a + %pi*~a/180)*exp(-~a*~a)"
+              offset amplitude frequency since phase since damping))))
+
+(defun archive-net-since (time)
+  "The time that has passed since TIME, 0 before: exponentials of it are finite at all times."
+  (format nil "max(0, t - ~a)" (archive-net-written time)))
 
 (defun archive-net-exponential (numbers span)
   "EXP(v1 v2 rise delay, rise constant, fall delay, fall constant)"
@@ -109,13 +112,11 @@
     (archive-net-fault "EXP needs all of its six numbers: v1 v2 td1 tau1 td2 tau2"))
   (destructuring-bind (v1 v2 rise rise-constant fall fall-constant) numbers
     (let* ((from (archive-net-known rise)) (to (archive-net-known fall))
-           (up (format nil "(~a - ~a)*(1 - exp(-(t - ~a)/~a))" v2 v1 (archive-net-written from)
-                       rise-constant))
-           (down (format nil "(~a - ~a)*(1 - exp(-(t - ~a)/~a))" v1 v2 (archive-net-written to)
-                         fall-constant)))
+           (slope "(~a - ~a)*(1 - exp(-~a/~a))"))
       (unless (< from to) (archive-net-fault "EXP falls before it rises"))
-      (archive-net-cases (list (list from v1) (list to (format nil "~a + ~a" v1 up))
-                               (list nil (format nil "~a + ~a + ~a" v1 up down)))))))
+      (format nil "~a + ~? + ~?" v1
+              slope (list v2 v1 (archive-net-since from) rise-constant)
+              slope (list v1 v2 (archive-net-since to) fall-constant)))))
 
 (defun archive-net-lines-of-time (numbers span)
   "PWL(t1 v1 t2 v2 ..): straight lines between points, constant outside."
@@ -142,6 +143,7 @@
 (defun archive-net-pulse (numbers span)
   "PULSE(v1 v2 delay rise fall width period), once."
   (unless (<= 2 (length numbers) 7) (archive-net-fault "PULSE needs from two to seven numbers"))
+  (archive-net-refuse-pulse numbers)
   (destructuring-bind (v1 v2 &optional (delay "0") rise fall width period) numbers
     (let* ((step (and span (archive-net-rational (first span))))
            (stop (and span (archive-net-rational (second span))))
@@ -150,7 +152,8 @@
            (c (+ b (if width (archive-net-known width)
                        (or stop (archive-net-fault "PULSE without its width needs .tran")))))
            (d (+ c (archive-net-slope-time fall step))))
-      (when (and period (not (and stop (<= stop (+ a (archive-net-known period))))))
+      (when (and period (plusp (archive-net-known period))
+                 (not (and stop (<= stop (+ a (archive-net-known period))))))
         (archive-net-fault "a periodic PULSE is not read; leave its period out, or end .tran ~
                             within it"))
       (archive-net-cases
@@ -159,6 +162,17 @@
              (list c v2)
              (list d (archive-net-line-between (list c v2) (list d v1)))
              (list nil v1))))))
+
+(defun archive-net-refuse-pulse (numbers)
+  "SPICE takes a width 0 for one that is not given; what began before 0 comes again with the period,
+which unless given is the time of the run."
+  (destructuring-bind (&optional (delay "0") rise fall (width "1") period) (cddr numbers)
+    (declare (ignore rise fall period))
+    (when (minusp (archive-net-known delay))
+      (archive-net-fault "a PULSE that begins before 0 is not read"))
+    (unless (plusp (archive-net-known width))
+      (archive-net-fault "PULSE of the width 0: programs differ on it; give its width, or leave it ~
+                          and what follows out"))))
 
 (defun archive-net-slope-time (text step)
   "The time of a rise or a fall; the step of .tran where it is 0 or not given, as in SPICE."

@@ -80,8 +80,14 @@ name in small letters, gives the text of its value."
       (when (>= position end)
         (return (format nil "~{~a~}" (nreverse pieces))))
       (multiple-value-bind (piece after) (archive-net-piece text position end scope)
+        (when (archive-net-would-grow-together-p (first pieces) piece) (push " " pieces))
         (push piece pieces)
         (setq position after)))))
+
+(defun archive-net-would-grow-together-p (before piece)
+  "Whether BEFORE and PIECE side by side would be one word: 1 2 is not 12."
+  (flet ((word-p (c) (or (archive-word-p c) (char= c #\.))))
+    (and before (word-p (char before (1- (length before)))) (word-p (char piece 0)))))
 
 (defun archive-net-piece (text from end scope)
   "Two values: the token at FROM in the archive's words, and where it ends."
@@ -99,10 +105,33 @@ name in small letters, gives the text of its value."
   "Whether exponents are even numbers: programs differ on other powers of what may be negative.")
 
 (defun archive-net-power-piece (text after end)
+  (archive-net-refuse-chain text after end)
   (when *archive-net-even-powers*
     (archive-net-check-exponent
      (subseq text after (archive-digits-end text (archive-skip-blanks text after end) end))))
   (values "^" after))
+
+(defun archive-net-refuse-chain (text after end)
+  "An error where another power follows the exponent that begins AFTER."
+  (let* ((behind (archive-net-operand-end text after end))
+         (next (position-if-not #'archive-net-blank-p text :start behind)))
+    (when (and next (or (char= (char text next) #\^)
+                        (eql next (search "**" text :start2 next))))
+      (archive-net-fault "a^b^c is not read: programs differ on which power comes first; write ~
+                          parentheses"))))
+
+(defun archive-net-operand-end (text after end)
+  "The place behind the number, name, call or parenthesis that begins AFTER, perhaps with a sign."
+  (let* ((from (or (position-if-not (lambda (c) (or (archive-net-blank-p c) (find c "+-"))) text
+                                    :start after)
+                   end))
+         (word (if (and (< from end) (archive-word-p (char text from)))
+                   (archive-word-end text (or (archive-net-number-end text from end) from) end)
+                   from))
+         (open (position-if-not #'archive-net-blank-p text :start word)))
+    (if (and open (char= (char text open) #\())
+        (1+ (archive-net-closing text open end))
+        word)))
 
 (defun archive-net-check-exponent (exponent)
   (let ((number (parse-integer exponent :junk-allowed t)))

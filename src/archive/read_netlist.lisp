@@ -49,8 +49,9 @@
   (unless (net-sheet-branches sheet) (core-error "~a has no elements" *archive-net-file*))
   (let ((starts (archive-net-starts sheet)) (laws (reverse (net-sheet-laws sheet))))
     (format nil "dynarch = 1~%kind = circuit~%title = ~s~%~%[system]~%~@[~a~]~@[~a~]~@[~a~]~@[~a~]~
-                 ~@[~a~]~%[branches]~%~{~a~%~}~@[~a~]"
+                 ~@[~a~]~@[~a~]~%[branches]~%~{~a~%~}~@[~a~]"
             (archive-net-title sheet)
+            (and (gethash "0" (net-sheet-nodes sheet)) (format nil "datum = 0~%"))
             (archive-net-key "functions" (mapcar (lambda (law)
                                                    (subseq law 0 (position #\( law))) laws))
             (archive-net-key "laws" laws)
@@ -59,7 +60,7 @@
             (archive-net-key "start" (loop for (state . value) in starts
                                            collect (format nil "~a = ~a" state value)))
             (let ((span (netlist-span (net-sheet-netlist sheet))))
-              (and span (format nil "time = [~a, ~a]~%" (or (third span) "0") (second span))))
+              (and span (format nil "time = [0, ~a]~%" (second span))))
             (reverse (net-sheet-branches sheet))
             (let ((rows (reverse (net-sheet-couplings sheet))))
               (and rows (format nil "~%[couplings]~%~{~a~%~}" rows))))))
@@ -87,10 +88,11 @@
           when value collect (cons state value))))
 
 (defun archive-net-initial-voltage (netlist tail head)
-  "The text of v(tail) - v(head) where .ic gives one of them and the other, or that is node 0."
+  "The text of v(tail) - v(head) where .ic gives both, or one is node 0; with uic the others are 0."
   (flet ((potential (node)
-           (if (string= node "0") "0" (third (find node (netlist-initial netlist)
-                                                   :key #'second :test #'string=)))))
+           (if (string= node "0") "0"
+               (or (third (find node (netlist-initial netlist) :key #'second :test #'string=))
+                   (and (netlist-from-zero netlist) "0")))))
     (let ((a (potential tail)) (b (potential head)))
       (and a b (or (string/= a "0") (string/= b "0"))
            (archive-net-spelled (archive-net-parsed (format nil "~a - (~a)" a b)))))))

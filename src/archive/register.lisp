@@ -142,16 +142,19 @@
     ("graph" :graph nil
      "the branches as a list of pairs of nodes, instead of [branches]" "Graph as a list")
     ("states" :states "[]"
-     "names of currents and voltages, by label" "Names of states, by label")
+     "names of currents and voltages, by label; without branches inductances and capacitances"
+     "Names of states, by label")
     ("potential" :expression nil
-     "mixed potential P(i, u), if it is not to be found from the branches"
+     "mixed potential P(i, u), if it is not to be found from the branches; ~
+      with states it may stand without them"
      "Mixed potential, if it is given")
     ("datum" :node nil "node of zero potential; the first node of the first branch unless given"
      "Node of zero potential")
     ("nodes" :nodes "[]"
      "what nodes were called in the netlist that the archive was read from" nil)
-    ("tree" :names nil
-     "labels of the branches of the proper tree, such as [C1, C2]; found unless given"
+    ("tree" :tree nil
+     "labels of the branches of the proper tree, such as [C1, C2]; found unless given; ~
+      cyclic: loop charges of which as many as may be are cyclic"
      "Labels of the tree's branches"))
   :sections
   '((("branches" :rows "[label:] node -> node  type  value  [state]"

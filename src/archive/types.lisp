@@ -1,12 +1,13 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; The types of the table of keys: one function for each turns a parsed value into the form that
-;;; the rooms receive, or refuses it. archive-typed is the entrance. Values are Maxima expressions;
-;;; what they mean together (lengths, parents, loops) is left to the rooms.
+;;; The types of the table of keys: one function for each turns a parsed value, an expression, into
+;;; what the rooms receive, or refuses it; archive-typed is the entrance. What values mean together
+;;; (lengths, parents, loops) is left to the rooms.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/nearest" "archive/register" "archive/simplify" "archive/speller"))
+  (core-require "core/nearest" "archive/interpolated_laws" "archive/register" "archive/simplify"
+                "archive/speller"))
 
 (defparameter *archive-version* 1)
 
@@ -29,6 +30,7 @@
     (:rates archive-as-rates "a list such as [p' = q, q' = -p], or with algebraic 0 = p + q")
     (:field archive-as-field "none, constant or newton")
     (:sign archive-as-sign "passive or generator")
+    (:tree archive-as-tree "a list of labels, such as [C1, C2], or cyclic")
     (:parent archive-as-parent "0, the number of a body, or the name of a frame")
     (:axes archive-as-axes "a list of 1, 2 and 3, such as [3, 1]")
     (:velocity archive-as-velocity "a list of three expressions, or auto")
@@ -39,7 +41,7 @@
     (:points archive-as-points "two points, such as [[0, 0, 0], [0, 0, l]]")
     (:node archive-as-node "an integer or a name")
     (:nodes archive-as-nodes "a list of nodes and what they were called, such as [n_in = \"in\"]")
-    (:states archive-as-states "a list of states by label, such as [i1 = L1, u3 = C3]")
+    (:states archive-as-assignments "a list of states by label, such as [i1 = L1, u3 = C3]")
     (:graph archive-as-graph "a list of branches, such as {{{1, 2}, L1}, {{2, 3}, C1, u1}}")
     (:skew archive-as-skew "a square matrix that is skew, such as [[0, 1], [-1, 0]]")
     (:algebra archive-as-algebra "so(4), e(3) or so(3,1)"))
@@ -111,7 +113,6 @@ sixty letters."
   (if (archive-list-p value) (cdr value) (archive-unfit)))
 
 (defun archive-list (items) (cons '(mlist simp) items))
-
 (defun archive-equation (left right) (list '(mequal simp) left right))
 
 (defun archive-each (function value)
@@ -280,8 +281,7 @@ those who compute with it."
 (defun archive-as-nodes (value)
   (archive-checked-equations value #'archive-a-name #'archive-as-text))
 
-(defun archive-as-states (value)
-  (archive-checked-equations value #'archive-a-name #'archive-a-name))
+(defun archive-as-tree (value) (if (eq value '$cyclic) value (archive-as-names value)))
 
 (defun archive-a-law (value)
   "f(u, ..), its arguments names; a prescribed function has the argument t."
@@ -291,7 +291,8 @@ those who compute with it."
   value)
 
 (defun archive-as-laws (value)
-  (archive-checked-equations value #'archive-a-law #'archive-an-expression))
+  (archive-laws-as-formulas (archive-checked-equations
+                             value #'archive-a-law (archive-points-or #'archive-an-expression))))
 
 (defun archive-a-state (value)
   (if (archive-velocity-p value) value (archive-a-name value)))
@@ -326,7 +327,6 @@ those who compute with it."
 (defun archive-as-facts (value) (archive-each #'archive-a-fact value))
 
 ;; The list of a graph
-
 (defparameter *archive-graph-types*
   '((#\L . "L") (#\C . "C") (#\R . "R") (#\E . "E") (#\I . "I")
     (#\f . "RU") (#\g . "RU") (#\h . "RI"))

@@ -32,11 +32,13 @@ weights, [k, w]."
   "Branches; sign 1, passive, or -1, generator; the section of the branches, for messages; laws
 [f(u) = .., ..]. `windings' are those that others determine; made ideal, they stand in `ideal', and
 `magnetizing' gives the currents of the inductors that magnetize them,
-`datum' is the node of zero potential, `potential' a given P, else false."
+`datum' is the node of zero potential, `potential' a given P, else false. `named_states' are those
+that the key `states' names, in its order."
   branches sign section laws
   (couplings '((mlist simp))) (transformers '((mlist simp))) (windings '((mlist simp)))
   (ideal '((mlist simp)))
-  (magnetizing '((mlist simp))) (chosen_tree '((mlist simp))) (datum '$none) (potential nil))
+  (magnetizing '((mlist simp))) (chosen_tree '((mlist simp))) (datum '$none) (potential nil)
+  (named_states '((mlist simp))))
 
 (core-record (circuits-structure circuits-circuit)
   "With a tree: numbers of the branches in it, of the links outside; for each branch its loop, a

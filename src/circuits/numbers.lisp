@@ -1,6 +1,6 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Lists of numbers of branches: those of a type, those that are not in a list. Each branch is
-;;; looked at once, whatever its place in the list is.
+;;; Branches and numbers of branches: those of a type, those that are not in a list, those with
+;;; states in the person's order. Each branch is looked at once, whatever its place in the list is.
 
 (in-package :maxima)
 
@@ -15,6 +15,21 @@
                 when (member (circuits-branch-type (svref branches (1- number))) (cdr types))
                   collect number))))
 
+(defun $circuits_of_types (branches types)
+  "Those of BRANCHES that are of one of TYPES."
+  (cons '(mlist simp)
+        (remove-if-not (lambda (branch) (member (circuits-branch-type branch) (cdr types)))
+                       (cdr branches))))
+
+(defun $circuits_with_open_sign (branches)
+  "Those of BRANCHES that store or resist and have no positive integer as their value."
+  (cons '(mlist simp)
+        (remove-if-not (lambda (branch)
+                         (let ((value (circuits-branch-value branch)))
+                           (and (member (circuits-branch-type branch) '(|$l| |$c| |$r|))
+                                (not (and (integerp value) (plusp value))))))
+                       (cdr branches))))
+
 (defun circuits-marks (numbers count)
   "A vector of COUNT truths: which places are among NUMBERS."
   (let ((marks (make-array count :initial-element nil)))
@@ -26,3 +41,16 @@
         (loop for mark across (circuits-marks numbers count)
               for number from 1
               unless mark collect number)))
+
+(defun circuits-in-named-order (circuit numbers)
+  "NUMBERS of branches with states, those first that the key `states' names, in its order."
+  (let ((named (cdr (circuits-circuit-named_states circuit))))
+    (if (null named)
+        numbers
+        (let ((branches (coerce (cdr (circuits-circuit-branches circuit)) 'simple-vector))
+              (places (make-hash-table :test #'eq)))
+          (loop for name in named for place from 0 do (setf (gethash name places) place))
+          (stable-sort (copy-list numbers) #'<
+                       :key (lambda (number)
+                              (gethash (circuits-branch-state (svref branches (1- number)))
+                                       places (length named))))))))

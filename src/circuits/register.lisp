@@ -13,6 +13,22 @@
   "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
+;;; A potential without branches, of the rules that a potential has the first to be taken
+
+(dolist (whole '("circuit" "open_circuit"))
+  (core-rule-given "potential_alone" whole '("circuit") "circuits/potential_alone"
+    "circuits_alone_branches"))
+(core-rule-given "potential_alone" "assumptions" '("circuit") "circuits/potential_alone"
+  "circuits_alone_assumptions")
+(core-rule-given "potential_alone" "MixedPotential" '("circuit") "circuits/potential_alone"
+  "circuits_alone_potential" "potential" '("laws" ((mlist simp))))
+(core-rule-given "potential_alone" "StateEquations" '("circuit") "circuits/potential_alone"
+  "circuits_alone_equations" "potential" "states" '("laws" ((mlist simp))) '("solved" nil))
+(core-rule-given "potential_alone" "PotentialRate" '("circuit") "circuits/potential_alone"
+  "circuits_alone_rate" "potential" "states" '("laws" ((mlist simp))))
+(core-rule-given "potential_alone" "potential_stores" '("circuit") "circuits/potential_alone"
+  "circuits_alone_stores" "potential" "states")
+
 ;;; The sparse tableau, solved for independent states
 
 (core-middle "tableau" '("circuit") "circuits/solved_tableau" "circuits_solved_tableau" "circuit")
@@ -46,6 +62,11 @@
       do (core-rule-given given "StateEquations" '("circuit") "circuits/state"
            "circuits_system_equations" "tableau" "network" "own_parts" "MixedPotential"
            '("solved" nil) '("matrices" nil)))
+(core-rule "variables" '("circuit") "circuits/blocks" "circuits_determined_names"
+  "StateEquations" "state_system")
+(dolist (given '("potential" (:edited "MixedPotential")))
+  (core-rule-given given "variables" '("circuit") "circuits/state" "circuits_rated_names"
+    "StateEquations"))
 (core-rule "StateEquations" '("potential") "circuits/state" "circuits_state_equations"
   "MixedPotential" "inductances" "capacitances" '("solved" nil))
 
@@ -73,7 +94,7 @@
 ;;; Transfer functions; `poles' gives a record with poles and zeros
 
 (core-option :truth "poles")
-(core-argument :formula "output")
+(core-argument :quantity "output")
 (core-argument :variable "input")
 (loop for (name quantity function . trailing)
         in '(("TransferFunction" "response" "circuits_transfer_function" "output" "input")
@@ -92,6 +113,9 @@
 (core-rule-given "potential" "rates" '("circuit") "forms/rates_of_systems" "forms_equation_rates"
   "StateEquations" '("laws" ((mlist simp))) '("variables" ((mlist simp)))
   '("integrals" ((mlist simp))) '("level" ((mlist simp))))
+(core-rule "run_start" '("circuit") "circuits/start" "circuits_run_start" "circuit" "rates"
+  '("values" ((mlist simp))) "start" "time")
+(core-rule-same-as "run_start" '("circuit") "start" :given "potential_alone")
 (core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("circuit") "hamilton_rates" :given '("function" $hamilton))
 
@@ -119,7 +143,10 @@
 (core-option :truth "replace")
 (core-rule "netlist_text" '("circuit") "circuits/write_netlist" "circuits_netlist_text" "circuit"
   '("values" ((mlist simp))) '("where" ((mlist simp))) '("nodes" ((mlist simp)))
-  '("start" ((mlist simp))) '("time" ((mlist simp))))
+  "whole_start" '("time" ((mlist simp))))
+(core-rule "whole_start" '("circuit") "circuits/start" "circuits_whole_start" "circuit"
+  '("values" ((mlist simp))) '("where" ((mlist simp))) '("start" ((mlist simp)))
+  '("time" ((mlist simp))))
 (core-public "WriteNetlist"
   :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
   :kinds '("circuit"))

@@ -87,6 +87,9 @@
         for others = (circuits-resistors-in-loop branches (svref loops (1- link)))
         when others collect (cons link others)))
 
+(defun circuits-states-in-order (structure numbers)
+  (cons (car numbers) (circuits-in-named-order structure (cdr numbers))))
+
 (defun $circuits_sort_branches (structure)
   "A network of STRUCTURE, its branches sorted."
   (let* ((branches (circuits-branch-vector structure))
@@ -104,9 +107,11 @@
                               (circuits-numbers-of-type branches numbers
                                                         *circuits-resistors*)))))
       (let ((network ($circuits_network structure)))
-        (setf (circuits-network-inductors network) (of links '|$l|)
+        (setf (circuits-network-inductors network)
+              (circuits-states-in-order structure (of links '|$l|))
               (circuits-network-dependent_inductors network) (of tree '|$l|)
-              (circuits-network-capacitors network) (of tree '|$c|)
+              (circuits-network-capacitors network)
+              (circuits-states-in-order structure (of tree '|$c|))
               (circuits-network-dependent_capacitors network) (of links '|$c|)
               (circuits-network-tree_resistors network) (resistors tree nil)
               (circuits-network-link_resistors network) (resistors links nil)
@@ -184,7 +189,15 @@
           (loop for number in (cdr numbers)
                 collect (list '(mequal simp)
                               (circuits-branch-state (svref branches (1- number)))
-                              (addn (loop for (nil place value) in (cdr (svref rows (1- number)))
-                                          collect (mul sign value
-                                                       (svref quantities (1- place))))
-                                    nil))))))
+                              (circuits-sum-of-row (svref rows (1- number)) sign quantities))))))
+
+(defun circuits-sum-of-row (row sign quantities)
+  "SIGN times the sum of ROW with QUANTITIES. Maxima puts each term of a sum into its place from the
+front; as the last come first here, that is no walk along a long sum."
+  (addn (loop for (x value) in (sort (loop for (nil place value) in (cdr row)
+                                           collect (list (svref quantities (1- place)) value))
+                                     #'string>
+                                     :key (lambda (term)
+                                            (if (symbolp (first term)) (first term) "")))
+              collect (mul sign value x))
+        nil))

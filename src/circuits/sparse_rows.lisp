@@ -41,13 +41,21 @@
           do (loop for (nil place value) in (cdr row)
                    do (push (circuits-entry number value) (aref table (1- place)))))
     (cons '(mlist simp)
-          (loop for column across table collect (cons '(mlist simp) (reverse column))))))
+          (loop for column across table collect (cons '(mlist simp) (nreverse column))))))
 
 (defun $circuits_position (item items)
   "The place of ITEM, a number or a name, in the list ITEMS."
   (1+ (position item (cdr items) :test #'equal)))
 
 ;; Full rows; a matrix without rows or columns is matrix()
+
+(defun $circuits_diagonal_of (matrix)
+  "The diagonal of MATRIX where nothing stands beside it, else false."
+  (loop for (nil . row) in (cdr matrix) for place from 0
+        unless (loop for entry in row for k from 0 always (or (= k place) (eql entry 0)))
+          do (return nil)
+        collect (nth place row) into diagonal
+        finally (return (cons '(mlist simp) diagonal))))
 
 (defun $circuits_products (rows others)
   "A row for each of ROWS: its products with each of OTHERS."

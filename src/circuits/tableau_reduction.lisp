@@ -9,8 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "circuits/coefficients" "circuits/elements" "circuits/tableau"
-                "circuits/tableau_elimination"))
+  (core-require "algebra/size" "algebra/zero" "circuits/coefficients" "circuits/elements"
+                "circuits/numbers" "circuits/tableau" "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
   tableau
@@ -57,7 +57,8 @@
            (loop for branch across (circuits-tableau-branches tableau)
                  when (eq (circuits-branch-type branch) type)
                    collect (circuits-branch-number branch))))
-    (append (of-type '|$l|) (of-type '|$c|))))
+    (loop for type in '(|$l| |$c|)
+          append (circuits-in-named-order (circuits-tableau-circuit tableau) (of-type type)))))
 
 ;;; Rates
 
@@ -138,16 +139,21 @@
              (circuits-weakest-first solution))))
 
 (defun circuits-weakest-first (solution)
-  "The states in the order in which they give way: the latest first, those last that the person's
-tree keeps independent."
+  "The states in the order in which they give way: voltages before currents, of each the latest
+branch first; last those that the person's tree keeps independent."
   (let* ((tableau (circuits-solution-tableau solution))
-         (chosen (cdr (circuits-circuit-chosen_tree (circuits-tableau-circuit tableau)))))
+         (count (length (circuits-tableau-branches tableau)))
+         (tree (circuits-circuit-chosen_tree (circuits-tableau-circuit tableau)))
+         (chosen (and (consp tree) (cdr tree))))
     (flet ((kept-p (k)
              (let* ((branch (circuits-branch-at tableau k))
                     (in-tree (member (circuits-branch-label branch) chosen)))
                (if (eq (circuits-branch-type branch) '|$c|) in-tree (and chosen (not in-tree))))))
-      (stable-sort (reverse (circuits-solution-states solution)) #'<
-                   :key (lambda (k) (if (kept-p k) 1 0))))))
+      (sort (copy-list (circuits-solution-states solution)) #'>
+            :key (lambda (k)
+                   (+ k
+                      (if (eq (circuits-branch-type (circuits-branch-at tableau k)) '|$c|) count 0)
+                      (if (kept-p k) (* -2 count) 0)))))))
 
 (defun circuits-tied-row (solution tie k)
   "What the tie makes of the state of K."
@@ -279,15 +285,21 @@ tree keeps independent."
              (circuits-solution-solved solution))
     (if moved (sort (union moved open) #'<) open)))
 
+(defun circuits-refuse-sources (solution sources demanded)
+  (let ((labels (circuits-labels-of solution sources)))
+    (if (eq t ($algebra_zerop demanded))
+        (core-error "the sources ~{~a~^, ~} give the same twice, so that what flows between them ~
+                     is not determined; one of them is enough" labels)
+        (core-error "the sources contradict each other: the branches demand 0 = ~a (~{~a~^, ~})"
+                    (core-words (list demanded)) labels))))
+
 (defun circuits-refuse-tie (solution tie)
   (let* ((tableau (circuits-solution-tableau solution))
          (columns (loop for column being the hash-keys of tie collect column))
          (sources (remove :source columns :key (lambda (c) (car (circuits-descriptor tableau c)))
                                   :test-not #'eq)))
     (if (= (length sources) (length columns))
-        (core-error "the sources contradict each other: the branches demand 0 = ~a (~{~a~^, ~})"
-                    (core-words (list (circuits-row-expression solution tie)))
-                    (circuits-labels-of solution sources))
+        (circuits-refuse-sources solution sources (circuits-row-expression solution tie))
         (core-error "neither inductor currents nor capacitor voltages determine the nonlinear ~
                      branches ~{~a~^, ~}" (circuits-labels-of solution columns)))))
 

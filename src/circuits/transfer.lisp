@@ -50,8 +50,23 @@
         (circuits-add-difference tableau row ($circuits_ends branch) -1))
     row))
 
+(defun circuits-refuse-value-for-s (value name)
+  (unless (freeof '$t value) (core-error "the value of ~a depends on the time" name))
+  (unless (freeof '|$S| value)
+    (core-error "the value of ~a contains s, the variable of the transfer function; name it ~
+                 otherwise" name)))
+
 (defun circuits-refuse-for-s (tableau)
   "What is not linear with constant values."
+  (let ((circuit (circuits-tableau-circuit tableau)))
+    (loop for transformer in (cdr (circuits-circuit-transformers circuit))
+          for k from 1
+          do (circuits-refuse-value-for-s (circuits-transformer-ratio transformer)
+                                          (format nil "transformer ~d" k)))
+    (loop for coupling in (cdr (circuits-circuit-couplings circuit))
+          for k from 1
+          do (circuits-refuse-value-for-s (circuits-coupling-mutual coupling)
+                                          (format nil "coupling ~d" k))))
   (loop for branch across (circuits-tableau-branches tableau)
         for label = (core-words (list (circuits-branch-label branch)))
         for value = (circuits-branch-value branch)
@@ -59,11 +74,7 @@
                   (core-error "branch ~a is not linear; FirstApproximation linearizes the circuit"
                               label))
                  ((circuits-type-in-p branch '|$e| '|$i|))
-                 ((not (freeof '$t value))
-                  (core-error "the value of ~a depends on the time" label))
-                 ((not (freeof '|$S| value))
-                  (core-error "the value of ~a contains s, the variable of the transfer function; ~
-                               name it otherwise" label))
+                 ((circuits-refuse-value-for-s value label))
                  ((and (circuits-branch-state branch)
                        (not (freeof (circuits-branch-state branch) value)))
                   (core-error "branch ~a is not linear; FirstApproximation linearizes the circuit"
@@ -109,11 +120,20 @@ quoted."
 
 (defun circuits-node-row (circuit node)
   (circuits-check-node-of circuit node "output")
+  (circuits-say-datum circuit)
   (lambda (tableau)
     (let ((row (circuits-new-row))
           (column (gethash (list :potential node) (circuits-tableau-columns tableau))))
       (when column (circuits-add-entry row column 1))
       row)))
+
+(defun circuits-say-datum (circuit)
+  "Who calls a node 0 and names no datum may take it for that."
+  (let ((first (first (circuits-described-nodes circuit))))
+    (when (and (eq (circuits-circuit-datum circuit) '$none) (not (eql first 0))
+               (member 0 (circuits-described-nodes circuit)))
+      (core-warn "potentials are counted from node ~a, the first of the first branch, and not from ~
+                  node 0; give datum = 0 for that" (core-words (list first))))))
 
 (defun circuits-check-node-of (circuit node what)
   (unless (member node (circuits-described-nodes circuit))

@@ -19,6 +19,7 @@
   names          ; node -> what it was called in a netlist, if SPICE's formulas can name it so
   sensed         ; labels of branches whose current controls others
   starts         ; ((state . number) ..)
+  (words (make-hash-table :test #'equal))   ; (sort key) -> name; (sort small name) -> t
   (lines '()))   ; newest first
 
 (defun $circuits_write_netlist (text file replace)
@@ -59,19 +60,38 @@
 (defun circuits-put-card (cards control &rest arguments)
   (push (apply #'format nil control arguments) (circuits-card-file-lines cards)))
 
-;;; Names and numbers
+;;; Names and numbers. To SPICE a and A are one, and gnd is 0.
+
+(defun circuits-card-word (cards sort key control &rest arguments)
+  "The name of KEY among those of SORT, :node or :element: what CONTROL gives, with a number behind
+it where that is taken."
+  (let ((words (circuits-card-file-words cards)) (wanted (apply #'format nil control arguments)))
+    (or (gethash (list sort :of key) words)
+        (loop for k from 1
+              for word = wanted then (format nil "~a_~d" wanted k)
+              for small = (list sort (string-downcase word))
+              do (unless (or (gethash small words) (equal small '(:node "gnd")))
+                   (setf (gethash small words) t)
+                   (return (setf (gethash (list sort :of key) words) word)))))))
 
 (defun circuits-card-node (cards node)
   (let ((named (cdr (assoc node (circuits-card-file-names cards)))))
-    (cond ((equal node (circuits-card-file-ground cards)) "0")
-          ((stringp named) named)
-          ((integerp node) (format nil "~d" node))
-          (t (string-downcase (core-spelling node))))))
+    (if (equal node (circuits-card-file-ground cards))
+        "0"
+        (circuits-card-word cards :node node "~a"
+                            (cond ((stringp named) named)
+                                  ((integerp node) (format nil "~d" node))
+                                  (t (string-downcase (core-spelling node))))))))
 
-(defun circuits-card-name (branch letter)
+(defun circuits-card-name (cards branch letter)
   "The label, with LETTER before it unless it begins so."
   (let ((label (core-spelling (circuits-branch-label branch))))
-    (if (char-equal (char label 0) letter) label (format nil "~a_~a" letter label))))
+    (circuits-card-word cards :element (list label letter) "~@[~a_~]~a"
+                        (if (char-equal (char label 0) letter) nil letter) label)))
+
+(defun circuits-card-sensor (cards label)
+  "The source of 0 volts in the branch LABEL, whose current controls others."
+  (circuits-card-word cards :element (list :sensor label) "V_i_~a" (core-spelling label)))
 
 (defun circuits-card-number (cards e what)
   (circuits-number-of (circuits-with-numbers cards e) what))
@@ -93,7 +113,7 @@
 (defun circuits-write-branch (cards branch)
   (let* ((ends (circuits-sensed-ends-of cards branch))
          (a (first ends)) (b (second ends)) (type (circuits-branch-type branch)))
-    (flet ((named (letter) (circuits-card-name branch letter))
+    (flet ((named (letter) (circuits-card-name cards branch letter))
            (value () (circuits-card-value cards branch)))
       (ecase type
         (|$r| (circuits-put-card cards "~a ~a ~a ~a" (named #\R) a b
@@ -108,9 +128,9 @@
         (|$o| (circuits-put-card cards "~a ~a ~a ~{~a ~}1e9" (named #\E) a b
                                  (circuits-control-nodes cards branch)))
         ((|$f| |$h|)
-         (circuits-put-card cards "~a ~a ~a V_i_~a ~a"
+         (circuits-put-card cards "~a ~a ~a ~a ~a"
                             (named (if (eq type '|$f|) #\F #\H)) a b
-                            (core-spelling (second (circuits-branch-control branch)))
+                            (circuits-card-sensor cards (second (circuits-branch-control branch)))
                             (value)))))))
 
 (defun circuits-control-nodes (cards branch)
@@ -123,9 +143,10 @@
                                     (cdr ($circuits_ends branch)))
     (let ((label (circuits-branch-label branch)))
       (cond ((member label (circuits-card-file-sensed cards))
-             (let ((name (core-spelling label)))
-               (circuits-put-card cards "V_i_~a ~a n_i_~a 0" name a name)
-               (list (format nil "n_i_~a" name) b)))
+             (let ((behind (circuits-card-word cards :node (list :behind label) "n_i_~a"
+                                               (core-spelling label))))
+               (circuits-put-card cards "~a ~a ~a 0" (circuits-card-sensor cards label) a behind)
+               (list behind b)))
             (t (list a b))))))
 
 (defun circuits-card-sign (cards) ($circuits_circuit_sign (circuits-card-file-circuit cards)))
@@ -141,7 +162,7 @@
          (start (assoc (circuits-branch-state branch) (circuits-card-file-starts cards)))
          (turned (if inductor 1 (circuits-card-sign cards))))
     (circuits-put-card
-     cards "~a ~a ~a ~a~@[ IC=~a~]" (circuits-card-name branch (if inductor #\L #\C)) a b
+     cards "~a ~a ~a ~a~@[ IC=~a~]" (circuits-card-name cards branch (if inductor #\L #\C)) a b
      (circuits-card-value cards branch)
      (and start (circuits-spice-number (* turned (circuits-card-number cards (cdr start)
                                                                        "a start value")))))))
@@ -150,9 +171,9 @@
   (let ((letter (if (eq (circuits-branch-type branch) '|$e|) #\V #\I))
         (value (circuits-with-numbers cards (circuits-branch-value branch))))
     (if ($freeof '$t value)
-        (circuits-put-card cards "~a ~a ~a ~a" (circuits-card-name branch letter) a b
+        (circuits-put-card cards "~a ~a ~a ~a" (circuits-card-name cards branch letter) a b
                            (circuits-card-value cards branch))
-        (circuits-put-card cards "~a ~a ~a ~a={~a}" (circuits-card-name branch #\B) a b letter
+        (circuits-put-card cards "~a ~a ~a ~a={~a}" (circuits-card-name cards branch #\B) a b letter
                            (circuits-spice-formula value '(($t . "time")))))))
 
 (defun circuits-write-law (cards branch a b)
@@ -161,16 +182,18 @@
          (law (circuits-with-numbers cards (mfuncall '$circuits_law (circuits-branch-value branch) x
                                                      ($circuits_circuit_laws
                                                       (circuits-card-file-circuit cards)))))
-         (name (circuits-card-name branch #\B)))
+         (name (circuits-card-name cards branch #\B))
+         (sensor (circuits-card-word cards :element (list :law name) "V_~a" name))
+         (between (circuits-card-word cards :node (list :law name) "n_~a" name)))
     (cond ((eq (circuits-branch-type branch) '|$ru|)
            (circuits-put-card cards "~a ~a ~a I={~a}" name a b
                               (circuits-spice-formula
                                law (list (cons x (if (= sign 1) (format nil "V(~a,~a)" a b)
                                                      (format nil "V(~a,~a)" b a)))))))
-          (t (circuits-put-card cards "V_~a ~a n_~a 0" name a name)
-             (circuits-put-card cards "~a n_~a ~a V={~:[-~;~]~a}" name name b (= sign 1)
+          (t (circuits-put-card cards "~a ~a ~a 0" sensor a between)
+             (circuits-put-card cards "~a ~a ~a V={~:[-~;~]~a}" name between b (= sign 1)
                                 (circuits-spice-formula
-                                 law (list (cons x (format nil "I(V_~a)" name)))))))))
+                                 law (list (cons x (format nil "I(~a)" sensor)))))))))
 
 ;;; What joins branches
 
@@ -181,8 +204,8 @@
           for one = (aref branches (1- (circuits-coupling-one coupling)))
           for other = (aref branches (1- (circuits-coupling-other coupling)))
           do (circuits-put-card
-              cards "K~d ~a ~a ~a" number (circuits-card-name one #\L)
-              (circuits-card-name other #\L)
+              cards "K~d ~a ~a ~a" number (circuits-card-name cards one #\L)
+              (circuits-card-name cards other #\L)
               (circuits-spice-number
                (circuits-card-number
                 cards (or (circuits-coupling-k coupling)
@@ -197,10 +220,16 @@
   (flet ((nodes (pair) (mapcar (lambda (node) (circuits-card-node cards node)) (cdr pair))))
     (destructuring-bind ((a b) (c d)) (list (nodes (circuits-transformer-pair transformer))
                                             (nodes (circuits-transformer-driven transformer)))
-      (let ((n (circuits-card-number cards (circuits-transformer-ratio transformer) "a ratio")))
-        (circuits-put-card cards "E_t~d ~a n_t~d ~a ~a ~a" k a k c d (circuits-spice-number n))
-        (circuits-put-card cards "V_t~d n_t~d ~a 0" k k b)
-        (circuits-put-card cards "F_t~d ~a ~a V_t~d ~a" k c d k (circuits-spice-number (- n)))))))
+      (let ((n (circuits-card-number cards (circuits-transformer-ratio transformer) "a ratio"))
+            (between (circuits-card-word cards :node (list :transformer k) "n_t~d" k)))
+        (flet ((named (letter)
+                 (circuits-card-word cards :element (list :transformer k letter) "~a_t~d" letter
+                                     k)))
+          (circuits-put-card cards "~a ~a ~a ~a ~a ~a" (named #\E) a between c d
+                             (circuits-spice-number n))
+          (circuits-put-card cards "~a ~a ~a 0" (named #\V) between b)
+          (circuits-put-card cards "~a ~a ~a ~a ~a" (named #\F) c d (named #\V)
+                             (circuits-spice-number (- n))))))))
 
 (defun circuits-tie-pieces (cards)
   "A large resistor from node 0 to each part that only couplings or transformers join to it."
@@ -210,7 +239,8 @@
     (loop for piece in pieces
           for k from 1
           unless (member (circuits-card-file-ground cards) (cdr piece))
-            do (circuits-put-card cards "R_tie_~d 0 ~a 1e12" k
+            do (circuits-put-card cards "~a 0 ~a 1e12"
+                                  (circuits-card-word cards :element (list :tie k) "R_tie_~d" k)
                                   (circuits-card-node cards (second piece))))))
 
 (defun circuits-span-line (time)

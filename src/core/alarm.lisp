@@ -18,8 +18,10 @@
     core-restore core-free-memory core-change-global)
   "Functions that change lists of Maxima in several steps.")
 
-(defparameter *core-undivided-lisp* '("PUTHASH" "REHASH" "REMHASH" "CLRHASH" "INTERN" "COMPILE")
-  "Parts of the names of functions of the Lisp that must not be left halfway.")
+(defparameter *core-undivided-lisp*
+  '("PUTHASH" "REHASH" "REMHASH" "CLRHASH" "INTERN" "COMPILE" "OPEN" "CLOSE")
+  "Parts of the names of functions of the Lisp that must not be left halfway: a file that was just
+opened would stay so.")
 
 (defparameter *core-writing* '("OUTPUT" "FD-SOUT" "WRITE-" "FRESH-LINE" "TERPRI" "BUFFER")
   "Parts of the names of functions that write to a stream.")

@@ -78,12 +78,12 @@
 ;;; Facts of a case
 
 (defun core-plain-relations (conditions)
-  "Those of CONDITIONS that are relations, `and' taken apart."
+  "Those of CONDITIONS that are relations, `and' taken apart, without the lines they came from."
   (loop for condition in conditions
         when (and (consp condition) (consp (car condition)))
           append (case (caar condition)
                    ((mgreaterp mgeqp mlessp mleqp $equal mequal $notequal mnotequal)
-                    (list condition))
+                    (list (cons (list (caar condition) 'simp) (cdr condition))))
                    (mnot (and (core-relation-p condition) (list condition)))
                    (mand (core-plain-relations (cdr condition))))))
 

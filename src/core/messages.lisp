@@ -115,6 +115,10 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
   (mapc #'funcall (reverse *core-afterwards*))
   (setq *core-afterwards* '()))
 
+(defun $core_words (&rest items)
+  "sconcat, but the same in all versions of Maxima and under all flags of printing."
+  (core-words items))
+
 (defun $core_error (&rest items) (core-signal (core-words items)))
 
 (defun $core_undecided (&rest items) (core-undecided "~a" (core-words items)))
@@ -129,6 +133,12 @@ Maxima. (Since 5.47 a minus binds closer than a product, and -4*x would be writt
 (defun $core_checked (&rest items)
   (pushnew (core-words items) *core-checks* :test #'string=)
   '$done)
+
+(defun $core_noted (&rest items)
+  "ITEMS as a line on the terminal, and as what the section of the result says was found."
+  (let ((text (core-words items)))
+    (core-note "~a" text)
+    ($core_checked text)))
 
 (defun $core_left_out (&rest items)
   (pushnew (core-words items) *core-left-out* :test #'string=)

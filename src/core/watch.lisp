@@ -59,11 +59,14 @@ may tick in 4 ms, too coarse for sums of what is short."
 (defvar *core-uncounted-seconds* 0d0 "Time that was not counted so far.")
 
 (defun core-unhurried (function)
-  "Calls FUNCTION, which the watch neither stops nor counts."
-  (let ((began (get-internal-real-time)) (clock (core-clock)) (within *core-busy*))
-    (unwind-protect (let ((*core-busy* t)) (funcall function))
-      (unless within (incf *core-uncounted-seconds* (- (core-clock) clock)))
-      (core-postpone (- (get-internal-real-time) began)))))
+  "Calls FUNCTION, which the watch neither stops nor counts. A part loads others: only the outermost
+such call counts, or deadlines would come later by their depth."
+  (if *core-busy*
+      (funcall function)
+      (let ((began (get-internal-real-time)) (clock (core-clock)))
+        (unwind-protect (let ((*core-busy* t)) (funcall function))
+          (incf *core-uncounted-seconds* (- (core-clock) clock))
+          (core-postpone (- (get-internal-real-time) began))))))
 
 (setq *core-loading* #'core-unhurried)
 
@@ -73,12 +76,14 @@ may tick in 4 ms, too coarse for sums of what is short."
 (defun core-waiting (function)
   "Calls FUNCTION, which waits for the person: his time is none of the call's, and the two seconds
 to the next line of progress begin anew."
-  (let ((began (get-internal-real-time)) (*core-busy* t))
-    (unwind-protect (core-unhurried function)
-      (when *core-deadlines*
-        (let ((now (get-internal-real-time)))
-          (incf *core-call-began* (- now began))
-          (core-next-line-after now))))))
+  (let ((began (get-internal-real-time)))
+    (core-unhurried
+     (lambda ()
+       (unwind-protect (funcall function)
+         (when *core-deadlines*
+           (let ((now (get-internal-real-time)))
+             (incf *core-call-began* (- now began))
+             (core-next-line-after now))))))))
 
 ;;; The sentence of a stop
 

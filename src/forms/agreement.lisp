@@ -13,10 +13,21 @@
   (> (abs (- x y))
      (forms-fixed-times (forms-fixed (expt 10 -30)) (+ (ash 1 forms-digits) (abs x) (abs y)))))
 
-(defun forms-agreement (sides)
-  "Whether the numbers of SIDES, pairs, agree; unknown where there is no number."
+(defconstant forms-most-digits-in-sums 200
+  "Binary digits before the point: of two larger values of functions, as exp(1000) - exp(999), the
+difference may hold nothing but rounding.")
+
+(defun forms-drowned-p (point)
+  "Whether a function has so large a value at POINT."
+  (loop for value being the hash-values of (forms-point-known point)
+          thereis (> (integer-length value) (+ forms-digits forms-most-digits-in-sums))))
+
+(defun forms-agreement (sides point)
+  "Whether the numbers of SIDES, pairs, agree; unknown where there is no number, or rounding alone
+may tell them apart at POINT."
   (cond ((some (lambda (pair) (not (and (car pair) (cdr pair)))) sides) 'unknown)
-        (t (notany (lambda (pair) (forms-differ-p (car pair) (cdr pair))) sides))))
+        ((notany (lambda (pair) (forms-differ-p (car pair) (cdr pair))) sides) t)
+        ((forms-drowned-p point) 'unknown)))
 
 (defun forms-point-text (point)
   "The values of POINT, for a report."
@@ -28,7 +39,7 @@
 
 (defun forms-verdict-of (how sides point)
   "Notes HOW it was checked that the numbers of SIDES agree, or stops."
-  (case (forms-agreement sides)
+  (case (forms-agreement sides point)
     (unknown ($core_checked "not checked (" how "): no number at a random point"))
     ((nil)
      (core-error "the result fails its check (~a) at ~a; please report this with the input"
@@ -58,7 +69,8 @@
 
 (defun $forms_agree_at (found expected point)
   "Whether they agree there, without a note."
-  (eq t (forms-agreement (forms-sides-at found expected (forms-given-point point)))))
+  (let ((point (forms-given-point point)))
+    (eq t (forms-agreement (forms-sides-at found expected point) point))))
 
 (defun $forms_random_point (names)
   "[x = rational, ..], each once."

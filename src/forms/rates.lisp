@@ -31,6 +31,16 @@ perhaps a small one, of parts as large as SIZE. A list, for what is done to all 
 (defun forms-first-integral-size (integral) (third integral))
 (defun forms-first-integral-power (integral) (fourth integral))
 
+(defun $forms_start_of_others (rates start)
+  "The equations of the list START for names that are no states of RATES."
+  (cons '(mlist simp)
+        (and ($listp start)
+             (remove-if (lambda (equation)
+                          (or (atom equation) (not (eq (caar equation) 'mequal))
+                              (member (second equation) (forms-rates-states rates)
+                                      :test #'alike1)))
+                        (cdr start)))))
+
 (defun forms-put (elements pairs)
   "ELEMENTS with other elements for some inputs, PAIRS (name . element)."
   (algebra-exchanged elements (algebra-exchange-by pairs)))

@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal" "algebra/size" "forms/fixed"
-                "forms/value"))
+  (core-require "algebra/normal" "forms/fixed" "forms/value"
+                "numerics/run_options"))
 
 (defstruct numerics-frequency-curve
   function  ; the transfer function with the values, an expression
@@ -46,15 +46,15 @@
 
 (defun numerics-given-ends (frequencies)
   (when frequencies
-    (let ((ends (mapcar #'numerics-rational-of (cdr frequencies))))
+    (let ((ends (mapcar #'numerics-rational-of (numerics-items frequencies))))
       (unless (and (= (length ends) 2) (every #'identity ends) (< 0 (first ends) (second ends)))
         (core-error "frequencies must be [w1, w2] with 0 < w1 < w2, found ~a"
                     (core-words (list frequencies))))
       (mapcar (lambda (w) (coerce w 'double-float)) ends))))
 
 (defun numerics-rational-of (e)
-  (cond ((floatp e) (rational e))
-        (t (algebra-rational-number e))))
+  "The number E, a constant such as 200*%pi too, as a rational number, or nil."
+  (let ((x (numerics-number-or-nil e))) (and x (rational x))))
 
 (defun numerics-corner-ends (polynomials)
   "A hundredth of the least and a hundred times the largest corner."

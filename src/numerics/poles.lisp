@@ -96,17 +96,18 @@ run before a step over a pole."
 (defun numerics-pole-p (poles step place)
   "Whether b X, of the divisor b at PLACE, does not vanish where b does: at the zero of b, as near
 as numbers come, it is compared with that at a small distance."
-  (let ((tolerance (numerics-share-tolerance step))
-        (share (numerics-divisor-zero poles step place)))
+  (let* ((tolerance (numerics-share-tolerance step)) (distance (sqrt tolerance))
+         (share (numerics-divisor-zero poles step place)))
     (multiple-value-bind (near at-near) (numerics-strength-near poles step place share tolerance)
       (multiple-value-bind (far at-far)
-          (numerics-greater-strength poles step place
-                                     (numerics-shares-about share (sqrt tolerance)))
-        (cond ((> (abs near) (abs far)) nil)
-              ((and at-near at-far)
-               (numerics-strength-stays-p (abs (/ near far)) at-near
-                                          (numerics-at-least-visible poles step far at-far)))
-              (t t))))))
+          (numerics-greater-strength poles step place (numerics-shares-about share distance))
+        (flet ((visible (change) (numerics-visible-strengths poles step far change)))
+          (cond ((> (abs near) (abs far)) nil)
+                ((and at-near at-far)
+                 (numerics-strength-stays-p (abs (/ near far)) at-near
+                                            (numerics-at-least at-far (visible 1d-6))
+                                            (visible (/ 1d-15 distance))))
+                (t t)))))))
 
 (defun numerics-shares-about (share distance)
   (list (max 0d0 (- share distance)) (min 1d0 (+ share distance))))
@@ -124,19 +125,25 @@ as numbers come, it is compared with that at a small distance."
             collect (multiple-value-list (numerics-strength poles step place share)))
     (values-list (if (> (abs (first left)) (abs (first right))) left right))))
 
-(defun numerics-at-least-visible (poles step b product)
-  "PRODUCT, each component at least such that it changes the state by 10^-6 of its scale in STEP, or
-in the last place of the time."
+(defun numerics-visible-strengths (poles step b change)
+  "The b X, of the value B, that change each component of the state by CHANGE of its scale in STEP,
+or in the last place of the time."
   (let* ((from (aref (numerics-step-from step) 0)) (to (aref (numerics-step-to step) 0))
          (length (max (abs (- to from)) (* double-float-epsilon (+ (abs to) (abs from)))
                       least-positive-normalized-double-float)))
     (map 'numerics-vector
-         (lambda (p x scale) (max (abs p) (abs (/ (* 1d-6 b (+ (abs x) scale)) length))))
-         product (numerics-step-before step) (numerics-poles-scales poles))))
+         (lambda (x scale) (abs (/ (* change b (+ (abs x) scale)) length)))
+         (numerics-step-before step) (numerics-poles-scales poles))))
 
-(defun numerics-strength-stays-p (ratio near far)
+(defun numerics-at-least (strengths least)
+  (map 'numerics-vector (lambda (a b) (max (abs a) b)) strengths least))
+
+(defun numerics-strength-stays-p (ratio near far least)
   "Whether a component of NEAR is more than is left of that of FAR when b goes down by RATIO: half
-its square root."
+its square root; and more than LEAST, which at the small distance changes the state in its last
+place. (Where a sum that has become small is divided by another, as t - a by t - (b + a), b = 0
+up to rounding, NEAR is rounding alone.)"
   (loop for a across near
         for b across far
-          thereis (> (abs a) (* 0.5d0 (sqrt ratio) b))))
+        for c across least
+          thereis (> (abs a) (max c (* 0.5d0 (sqrt ratio) b)))))

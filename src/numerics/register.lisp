@@ -21,6 +21,7 @@
 (core-argument :motion "start")
 (core-argument :interval "time")
 
+(core-rule-same-as "run_start" :any "start")
 (core-rule "run" :any "numerics/run_options" "numerics_wishes" '("method" $auto) '("points" 101)
   '("tolerance" 1d-8) '("events" ((mlist simp))) '("stop" nil) '("digits" 0) '("first_step" 0)
   '("estimate" nil) '("conditioning" nil))
@@ -33,14 +34,15 @@
              "integrals" "estimate" "conditioning" "plot" "file" "replace" "rayleigh" "forces"
              "constraints" "nonholonomic" "laws" "function" "cyclic" "momenta" "variables")
   :kinds (core-kind-names) :numerical t)
+(core-rule-same-as "run_start" :any "start")
 (core-rule "derivation_began" :any "numerics/native" "numerics_working_seconds")
 (core-rule "Simulate" :any "numerics/simulate" "numerics_simulate" "derivation_began" "rates"
-  *numerics-values* "start" "time" "run")
+  *numerics-values* "run_start" "time" "run")
 
 ;;; What methods reach, and what it costs
 
 (core-rule "trial" :any "numerics/trial" "numerics_trial" "derivation_began" "rates"
-  *numerics-values* "start" "time")
+  *numerics-values* "run_start" "time")
 
 (core-public "ReferenceSolution"
   :forms '(("lagrangian" "Lagrangian" "coordinates" "start" "time")
@@ -75,7 +77,7 @@
 
 (core-rule "picture" :any "numerics/pictures" "numerics_picture" '("file" nil) '("replace" nil))
 (core-rule "curves" :any "numerics/time_plot" "numerics_curves" "plot" "rates" *numerics-values*
-  "start")
+  "run_start")
 (core-act "Simulate" "plot" :any "numerics/time_plot" "numerics_time_plot" "picture" "curves"
   "Simulate")
 

@@ -1,0 +1,47 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Adversaries against faults: each line plants one in a copy, a sign, a factor or a rank, and the adversary must find it among the
+# cases that it runs by itself, fewer than a thousand.
+
+here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
+. "$here/../tools/find"
+. "$here/check"
+find_maxima || exit 1
+original=$(dirname -- "$here")
+XDG_CACHE_HOME=$PWD/cache MAXIMA=$maxima
+export XDG_CACHE_HOME MAXIMA
+
+# name cases seed | file | what stands there | the fault
+faults() {
+  cat <<'END'
+normal_forms 150 11|src/analysis/neutral_hamiltonian.mac|inverse: if b = 0 then l1|inverse: if b = 0 then -l1
+normal_forms 150 11|src/analysis/neutral_resonance.mac|- 108\*c|- 27*c
+normal_forms 150 11|src/analysis/normal_form.lisp|(cons number 2) beta|(cons number 1) beta
+normal_forms 150 11|src/analysis/neutral_double.mac|algebra_inverse_times(J, -M|algebra_inverse_times(J, M
+leaves 40 41|src/analysis/variation.mac|N\[k, i\]\*HN|N[k, j]*HN
+leaves 40 41|src/analysis/variation.mac|integrals # \[\] then$|false then
+polynomial_integrals 60 5|src/algebra/invariants.lisp|degree from most downto least|degree from most above least
+polynomial_integrals 60 5|src/algebra/invariants.lisp|(>= k count)|(> k count)
+END
+}
+
+# the adversary's last line in a copy, with the fault if there is one
+outcome() { # NAME CASES SEED [FILE OLD NEW]
+  rm -rf copy && mkdir copy && cp -r "$original/tools" "$original/src" "$original/tests" "$original"/*.mac copy
+  if [ $# -gt 3 ]; then
+    sed -i "s|$5|$6|" "copy/$4"
+    cmp -s "copy/$4" "$original/$4" && { echo "nothing of $4 changed"; return; }
+  fi
+  copy/tools/fuzz "$1" "$2" "$3" >said 2>&1 </dev/null && echo held || echo "found"
+}
+
+faults >list
+cut -d'|' -f1 list | sort -u >names
+while read -r name cases seed; do
+  check "$name holds without a fault" "$(outcome "$name" "$cases" "$seed")" held
+done <names
+while IFS='|' read -r run file old new; do
+  # shellcheck disable=SC2086
+  check "$run: $new" "$(outcome $run "$file" "$old" "$new")" found
+done <list
+summary
