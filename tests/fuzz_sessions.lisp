@@ -29,6 +29,18 @@
      "MixedPotential(\"nonlinear_circuit.txt\")"
      "StateEquations(\"nonlinear_circuit.txt\")"
      "Stability(\"equilibria.txt\")"
+     "Stability(\"satellite.txt\")"
+     "RouthLyapunov(\"lagrange_top.txt\")"
+     "PolynomialIntegrals(\"sokolov_e3.txt\", 2)"
+     "Equilibria(\"lorenz.txt\")"
+     "DiracScheme(\"gauge_rotation.txt\")"
+     "EulerPoisson(\"satellite_gyrodyne.txt\")"
+     "TransferFunction(\"sallen_key.txt\", v(4), U)"
+     "StateEquations(\"linear_pair.txt\", matrices = true)"
+     "BranchQuantities(\"flip_flop.txt\")"
+     "BraytonMoser(\"tunnel_diode.txt\")"
+     "PortHamiltonian(\"gyrator_tanks.txt\")"
+     "Simulate(\"van_der_pol.txt\", save = false)"
      "Lagrangian(\"no such file.txt\")")))
 
 (defparameter *fuzz-names*

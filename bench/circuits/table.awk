@@ -4,15 +4,15 @@
 { seconds[$1, $2, $3] = $4; result[$1, $2, $3] = $5
   if (!(($2, $3) in known)) { known[$2, $3] = 1; rows[$2] = rows[$2] " " $3 } }
 function of(peer, work, n) { return (peer, work, n) in seconds ? seconds[peer, work, n] : "" }
-function number(x) { return x ~ /^[0-9.]+$/ && x + 0 > 0 }
+function is_number(x) { return x ~ /^[0-9.]+$/ && x + 0 > 0 }
 function ratio(n,   ours, theirs) {
   ours = of("dynarch", "ladder", n); theirs = of("lcapy", "ladder", n)
-  return number(ours) && number(theirs) ? sprintf("%.0f", theirs/ours) : ""
+  return is_number(ours) && is_number(theirs) ? sprintf("%.0f", theirs/ours) : ""
 }
 # s ~ n^p from one row to the next
 function growth(work, before, n,   a, b) {
   a = of("dynarch", work, before); b = of("dynarch", work, n)
-  return before && number(a) && number(b) ? sprintf("%.2f", log(b/a)/log(n/before)) : ""
+  return before && is_number(a) && is_number(b) ? sprintf("%.2f", log(b/a)/log(n/before)) : ""
 }
 function table(work, title, peer,   numbers, count, i, n) {
   printf "\n### %s\n\n| n | dynarch | growth, n to the |%s\n|--:|--:|--:|%s\n", title, peer ? " " peer " | ratio |" : "", peer ? "--:|--:|" : ""
@@ -28,8 +28,8 @@ function table(work, title, peer,   numbers, count, i, n) {
     }
   }
 }
-function target(name, found, limit) { printf "* %s: %s at most %s: %s\n", found + 0 <= limit + 0 ? "met" : "not met", name, limit, found }
-function at_least(name, found, limit) { printf "* %s: %s at least %s: %s\n", found + 0 >= limit + 0 ? "met" : "not met", name, limit, found }
+function target(name, found, limit) { if (found != "") printf "* %s: %s at most %s: %s\n", found + 0 <= limit + 0 ? "met" : "not met", name, limit, found }
+function at_least(name, found, limit) { printf "* %s: %s at least %s: %s\n", (found + 0 >= limit + 0 ? "met" : "not met"), name, limit, found }
 END {
   table("ladder", "state equations of a ladder of n sections, 2*n states, all symbols", "lcapy")
   table("branches", "what each branch of the ladder does")

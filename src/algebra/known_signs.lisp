@@ -17,12 +17,16 @@
 
 (defun algebra-what-is-known ()
   "What is known here; kept for the next question under the same facts."
-  (let ((facts (core-facts)))
-    (or (gethash facts *algebra-knowledges*)
-        (let ((knowledge (algebra-learned facts)))
-          (when (>= (hash-table-count *algebra-knowledges*) *algebra-kept-knowledge*)
-            (clrhash *algebra-knowledges*))
-          (setf (gethash facts *algebra-knowledges*) knowledge)))))
+  (let* ((facts (core-facts)) (known (gethash facts *algebra-knowledges*)))
+    (cond ((null known)
+           (when (>= (hash-table-count *algebra-knowledges*) *algebra-kept-knowledge*)
+             (clrhash *algebra-knowledges*))
+           (setf (gethash facts *algebra-knowledges*) (algebra-learned facts)))
+          ((eq facts (knowledge-facts known)) known)
+          (t ; thousands of facts are compared once: the next question finds this very list
+           (remhash facts *algebra-knowledges*)
+           (setf (knowledge-facts known) facts
+                 (gethash facts *algebra-knowledges*) known)))))
 
 (defun algebra-name-signs (facts)
   "((name . sign) ..) that follow from FACTS, or :contradiction."

@@ -120,6 +120,12 @@
   (let ((digits (length (format nil "~D" (floor n)))))
     (if (< digits 7) (floor n) (format nil "10^~D" (1- digits)))))
 
+;; algebra_unless_long(e): the value of e, or false where what it expands would be too long.
+(defmspec $algebra_unless_long (form)
+  (let ((value (catch 'algebra-too-large
+                 (let ((*algebra-may-give-up* t)) (meval (cadr form))))))
+    (if (eq value 'too-large) nil value)))
+
 (defun $algebra_guard (predicted what)
   (algebra-guard predicted (if (stringp what) what (coerce (mstring what) 'string)))
   '$done)

@@ -287,6 +287,22 @@ intervals, which costs less than expanding roots."
          (algebra-interval-sign-at e 192))))
 
 (defun algebra-point-coordinate (name attempt)
+  "A number for NAME, such that the facts on this name alone hold where one is soon found: x > 3
+beside y < -2 is met by few points of one sort."
+  (let ((facts (algebra-facts-on name)))
+    (or (loop repeat (if facts 40 1)
+              for other from attempt by 25
+              for value = (algebra-random-coordinate name other)
+              thereis (let ((*algebra-point* (list (cons name value))))
+                        (and (notany #'algebra-fact-fails-p facts) value)))
+        (algebra-random-coordinate name attempt))))
+
+(defun algebra-facts-on (name)
+  "The facts in which NAME is the only one."
+  (remove-if-not (lambda (fact) (equal (cdr ($listofvars (core-fact-difference fact))) (list name)))
+                 (core-facts)))
+
+(defun algebra-random-coordinate (name attempt)
   "Between 0 and 1, above 1, of either sign, or large: four sorts of ATTEMPT in turn."
   (multiple-value-bind (above rest)
       (algebra-random-below 96 (algebra-random-state name attempt))
@@ -297,8 +313,10 @@ intervals, which costs less than expanding roots."
         (3 (* fraction (if (zerop (algebra-random-below 2 rest)) 5 -5)))
         (0 (* 30 fraction))))))
 
-(defun algebra-facts-fail-p ()
-  (loop for fact in (core-facts)
-        thereis (multiple-value-bind (e needed) (core-fact-difference fact)
-                  (let ((sign (and (member needed '($pos $pz)) (algebra-interval-sign-at e 64))))
-                    (and sign (minusp sign))))))
+(defun algebra-facts-fail-p () (some #'algebra-fact-fails-p (core-facts)))
+
+(defun algebra-fact-fails-p (fact)
+  "Whether FACT does not hold at the point, for sure."
+  (multiple-value-bind (e needed) (core-fact-difference fact)
+    (let ((sign (and (member needed '($pos $pz)) (algebra-interval-sign-at e 64))))
+      (and sign (minusp sign)))))

@@ -126,6 +126,8 @@
         ((eq (caar e) 'mtimes) (reduce #'* (mapcar #'forms-terms (cdr e))))
         ((and (mexptp e) (integerp (caddr e)) (< 1 (caddr e) 20))
          (expt (forms-terms (cadr e)) (caddr e)))
+        ((and (member (caar e) '(%sin %cos)) (mplusp (cadr e)))
+         (expt 2 (- (length (cadr e)) 2))) ; by the theorem of addition
         (t 1)))
 
 (defun forms-in-ring (system q v a back function)
