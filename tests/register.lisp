@@ -53,7 +53,7 @@
                 append (loop for form in (core-public-forms public) append (cdr form)))
           (loop for kind in (core-kind-names)
                 append (mapcar #'archive-key-name (archive-option-keys kind)))
-          '("description" "form" "coordinates" "potential_alone")))
+          '("description" "form" "coordinates")))
 
 (defun $register_unknown_inputs ()
   "[quantity, input] of rules that take what nothing gives."

@@ -26,7 +26,7 @@
 
 (defun archive-circuit-completed (system groups)
   "Two values: the equations of SYSTEM without graph, and GROUPS with the branches, whether these
-stand in [branches] or in graph; where a potential stands alone, a mark of it."
+stand in [branches] or in graph."
   (let ((graph (find '$graph system :key #'second))
         (branches (archive-find-group groups "branches"))
         (given (archive-find-group groups "system")))
@@ -38,10 +38,11 @@ stand in [branches] or in graph; where a potential stands alone, a mark of it."
                                                 (and (archive-find-statement given "sign") t))
                          (cons (archive-graph-group (third graph)) groups)))
           (branches (values system groups))
-          (t (values (append system (archive-potential-alone system)) groups)))))
+          (t (archive-check-potential-alone system)
+             (values system groups)))))
 
-(defun archive-potential-alone (system)
-  "What marks a circuit of which SYSTEM gives the potential and the states, and no branches."
+(defun archive-check-potential-alone (system)
+  "An error unless SYSTEM gives a potential and its states where there are no branches."
   (flet ((given (key) (third (find key system :key #'second))))
     (cond ((not (given '$potential))
            (core-fault "system" nil "a circuit has branches; add a section [branches], the key ~
@@ -49,8 +50,7 @@ stand in [branches] or in graph; where a potential stands alone, a mark of it."
           ((null (cdr (given '$states)))
            (core-fault "system" "states" "a potential without branches needs its states with ~
                                           their inductances and capacitances, such as states = ~
-                                          [i1 = L1, u3 = C3]"))
-          (t (list (archive-equation '$potential_alone t))))))
+                                          [i1 = L1, u3 = C3]")))))
 
 ;;; Names
 

@@ -28,7 +28,8 @@
 
 (defun archive-meets-p (call condition)
   "Whether the call or the archive gives the option CONDITION, or (option value) with this value;
-:file: whether the system is a file; (:edited name): whether its result NAME was edited by hand."
+:file: whether the system is a file; (:edited name): whether its result NAME was edited by hand;
+(:without section): whether SECTION has no rows."
   (cond ((eq condition :file)
          (and (archive-call-archive call) (archive-path (archive-call-archive call)) t))
         ((stringp condition)
@@ -36,6 +37,9 @@
              (nth-value 1 (archive-key-value call condition))))
         ((eq (first condition) :edited)
          (archive-edited-p call (second condition)))
+        ((eq (first condition) :without)
+         (equal (multiple-value-list (archive-key-value call (second condition)))
+                '(((mlist simp)) t)))
         (t (eq (archive-option call (first condition) nil) (second condition)))))
 
 (defun archive-key-value (call key)
@@ -107,7 +111,7 @@
 
 (defun archive-condition-sources (condition)
   (cond ((or (null condition) (eq condition :file)) '())
-        ((and (consp condition) (eq (first condition) :edited)) '())
+        ((and (consp condition) (member (first condition) '(:edited :without))) '())
         (t (list condition))))
 
 (defun archive-add-needs (call need name)

@@ -13,20 +13,23 @@
   "description")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
-;;; A potential without branches, of the rules that a potential has the first to be taken
+;;; A potential without branches
+
+(defparameter *circuits-alone* '(:without "branches"))
 
 (dolist (whole '("circuit" "open_circuit"))
-  (core-rule-given "potential_alone" whole '("circuit") "circuits/potential_alone"
+  (core-rule-given *circuits-alone* whole '("circuit") "circuits/potential_alone"
     "circuits_alone_branches"))
-(core-rule-given "potential_alone" "assumptions" '("circuit") "circuits/potential_alone"
+(core-rule-given *circuits-alone* "assumptions" '("circuit") "circuits/potential_alone"
   "circuits_alone_assumptions")
-(core-rule-given "potential_alone" "MixedPotential" '("circuit") "circuits/potential_alone"
+(core-rule-given *circuits-alone* "MixedPotential" '("circuit") "circuits/potential_alone"
   "circuits_alone_potential" "potential" '("laws" ((mlist simp))))
-(core-rule-given "potential_alone" "StateEquations" '("circuit") "circuits/potential_alone"
-  "circuits_alone_equations" "potential" "states" '("laws" ((mlist simp))) '("solved" nil))
-(core-rule-given "potential_alone" "PotentialRate" '("circuit") "circuits/potential_alone"
-  "circuits_alone_rate" "potential" "states" '("laws" ((mlist simp))))
-(core-rule-given "potential_alone" "potential_stores" '("circuit") "circuits/potential_alone"
+(core-rule-given *circuits-alone* "StateEquations" '("circuit") "circuits/potential_alone"
+  "circuits_alone_equations" "potential" "MixedPotential" "states" '("laws" ((mlist simp)))
+  '("solved" nil))
+(core-rule-given *circuits-alone* "PotentialRate" '("circuit") "circuits/potential_alone"
+  "circuits_alone_rate" "potential" "MixedPotential" "states" '("laws" ((mlist simp))))
+(core-rule-given *circuits-alone* "potential_stores" '("circuit") "circuits/potential_alone"
   "circuits_alone_stores" "potential" "states")
 
 ;;; The sparse tableau, solved for independent states
@@ -115,7 +118,7 @@
   '("integrals" ((mlist simp))) '("level" ((mlist simp))))
 (core-rule "run_start" '("circuit") "circuits/start" "circuits_run_start" "circuit" "rates"
   '("values" ((mlist simp))) "start" "time")
-(core-rule-same-as "run_start" '("circuit") "start" :given "potential_alone")
+(core-rule-same-as "run_start" '("circuit") "start" :given *circuits-alone*)
 (core-rule-same-as "rates" '("circuit") "routh_rates" :given '("function" $routh))
 (core-rule-same-as "rates" '("circuit") "hamilton_rates" :given '("function" $hamilton))
 

@@ -75,7 +75,8 @@ or :any."
 (defun core-rule-given (option name kinds part function &rest inputs)
   "The same where OPTION is given, in the call or as a key of the archive; where it is (option
 value), only with that value; where it is :file, for systems that are files; where it is (:edited
-name), where the archive's result NAME was edited by hand."
+name), where the archive's result NAME was edited by hand; (:without section): where SECTION has no
+rows."
   (core-add-rule name (make-core-rule :kinds kinds :given option :part part
                                       :function (core-symbol function) :inputs inputs)))
 
