@@ -64,9 +64,11 @@ A = -P_ii, `conductance' B = P_uu, gamma = P_iu."
 (core-record analysis-search
   "What the method of Routh and Lyapunov is asked of: the RATES x' of the variables, integrals V_j
 with their names and multipliers, among them those of a LEVEL that vanish, and the CONDITIONS that
-vanish where sum mu_j*V_j is stationary. UNITS vanish in each motion of bodies: of unit vectors what
+vanish where sum mu_j*V_j is stationary, or the COMBINATION K(V0, V1, ..) that was given instead
+(false where none was). UNITS vanish in each motion of bodies: of unit vectors what
 their squares exceed 1, and their product."
-  variables rates integrals names multipliers level conditions (units '((mlist simp))))
+  variables rates integrals names multipliers level conditions (units '((mlist simp)))
+  (combination nil))
 
 (core-record analysis-manifold
   "A stationary manifold: the SET [x = .., mu = ..], the DEVIATIONS e that vanish on it, and the

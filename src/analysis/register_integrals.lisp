@@ -14,7 +14,7 @@
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers" "within" "function")
+  :options '("where" "unknowns" "multipliers" "within" "K" "function")
   :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
 (core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
   "analysis_routh_lyapunov"
@@ -23,6 +23,10 @@
 (core-rule "integrals_on_level" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
   "analysis_integrals_on_level" "known_integrals" (list "level" *analysis-none*)
   (list "within" *analysis-none*))
+(core-rule-given "K" "integrals_on_level" (core-kinds-giving "known_integrals")
+  "analysis/routh_lyapunov" "analysis_integrals_with_combination" "known_integrals"
+  (list "level" *analysis-none*) (list "within" *analysis-none*) "K"
+  (list "parameters" *analysis-none*))
 
 ;;; Mechanical systems as equations of the first order with integrals
 

@@ -140,12 +140,16 @@
     ("equations" "variables"))
   "Arguments in which all the names of another one should occur, and others where they may.")
 
+(defun archive-of-integrals-p (function given)
+  "Whether FUNCTION is one of first integrals of equations, in their names."
+  (and (string= function "K") (nth-value 1 (gethash "equations" given))))
+
 (defun archive-check-occurrence (given)
   "An error where none of the names occurs in what they belong to, a warning where some do not."
   (loop for (function list . others) in *archive-functions-of*
         for names = (cdr (gethash list given))
         for value = (gethash function given)
-        do (when (and names value)
+        do (when (and names value (not (archive-of-integrals-p function given)))
              (let* ((all (cons value (mapcar (lambda (name) (gethash name given)) others)))
                     (absent (remove-if (lambda (x) (archive-occurs-p x (cons '(mlist) all)))
                                        names)))

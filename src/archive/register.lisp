@@ -28,6 +28,12 @@
 (defparameter *archive-integral-rows*
   '(("integrals" :assignments "[]" "known first integrals, by name" "First integrals")))
 
+(defparameter *archive-combination-rows*
+  '(("K" :combination nil
+     "the function of the integrals that the method of Routh and Lyapunov takes, ~
+      such as H + mu*V1^2; their linear combination unless given"
+     "Function of the integrals, if it is not linear")))
+
 (core-kind "mechanical" "rigid bodies, with springs, dampers and forces"
   :first
   '(("bodies" :count :required "number of bodies: exactly the sections [body 1] to [body n]"
@@ -171,12 +177,13 @@
   :first
   '(("variables" :names :required "the variables" "Variables"))
   :keys
-  '(("equations" :rates :required "equations of motion" "Equations")
+  `(("equations" :rates :required "equations of motion" "Equations")
     ("integrals" :assignments "[]" "known first integrals, by name" "First integrals")
     ("level" :vanishing "[]"
      "the integrals hold only where these vanish" "Where the integrals hold")
     ("multipliers" :names nil
-     "names of the multipliers mu_j; mu0, mu1, ... unless given" "Names of the multipliers"))
+     "names of the multipliers mu_j; mu0, mu1, ... unless given" "Names of the multipliers")
+    ,@*archive-combination-rows*)
   :agreement '("archive/names" archive-check-equations)
   :gives '(("state_equations" "rated_equations") ("known_integrals" "integrals")))
 
@@ -190,7 +197,8 @@
      "the variables" "Variables"))
   :keys
   `(("hamiltonian" :expression :required "Hamilton's function" "Hamiltonian")
-    ,@*archive-integral-rows*)
+    ,@*archive-integral-rows*
+    ,@*archive-combination-rows*)
   :gives '(("state_equations" "poisson_equations") ("known_integrals" "poisson_integrals")))
 
 ;;; SPICE netlists

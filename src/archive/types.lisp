@@ -24,6 +24,7 @@
     (:motion archive-as-motion "a list such as [theta = 0, theta' = 1]")
     (:span archive-as-span "two numbers, such as [0, 10]")
     (:expression archive-as-expression "an expression")
+    (:combination archive-as-expression "an expression in the names of integrals")
     (:expressions archive-as-expressions "a list of expressions")
     (:vector archive-as-vector "a list of three expressions")
     (:vanishing archive-as-vanishing "a list of equations, such as [x^2 + y^2 - l^2 = 0]")
