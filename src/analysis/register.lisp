@@ -293,12 +293,12 @@
 (loop for (motion kinds) in `(("motion" ,(cons "equations" *analysis-motions*))
                               ("charge_motion" ("circuit")))
       do (core-rule "KelvinChetaev" kinds "analysis/kelvin_chetaev"
-           "analysis_kelvin_chetaev_system" "M" "D" "G" "K" "P" motion))
+           "analysis_kelvin_chetaev_system" "M" "D" "G" "potential_part" "P" motion))
 (core-rule-given '("function" $routh) "KelvinChetaev" *analysis-pencils* "analysis/kelvin_chetaev"
   "analysis_kelvin_chetaev_system"
-  "M" "D" "G" "K" "P" "routh_motion")
-(loop for part in '("D" "G" "K" "P")
-      do (core-rule-field part (cons "equations" *analysis-pencils*) "ForceStructure" part))
+  "M" "D" "G" "potential_part" "P" "routh_motion")
+(loop for (name part) in '(("D" "D") ("G" "G") ("potential_part" "K") ("P" "P"))
+      do (core-rule-field name (cons "equations" *analysis-pencils*) "ForceStructure" part))
 
 ;;; Integrals of linear systems
 
