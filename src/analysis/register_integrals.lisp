@@ -26,7 +26,7 @@
 (core-rule-given "K" "integrals_on_level" (core-kinds-giving "known_integrals")
   "analysis/routh_lyapunov" "analysis_integrals_with_combination" "known_integrals"
   (list "level" *analysis-none*) (list "within" *analysis-none*) "K"
-  (list "parameters" *analysis-none*))
+  (list "parameters" *analysis-none*) *analysis-integrals*)
 
 ;;; Mechanical systems as equations of the first order with integrals
 
