@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 2974882595 138779
+;;; Made by tools/doc; checksum of doc/*.texi: 2328650568 140117
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -60,16 +60,16 @@
 ("Stability" . ("dynarch.info" 91326 6014 "Definitions for Analysis"))
 ("LyapunovTest" . ("dynarch.info" 97341 2812 "Definitions for Analysis"))
 ("SecondVariation" . ("dynarch.info" 100154 976 "Definitions for Analysis"))
-("RouthLyapunov" . ("dynarch.info" 101131 4528 "Definitions for Analysis"))
-("EliminateMultipliers" . ("dynarch.info" 105660 1741 "Definitions for Analysis"))
-("LinearIntegrals" . ("dynarch.info" 107402 1127 "Definitions for Analysis"))
-("QuadraticIntegrals" . ("dynarch.info" 108530 815 "Definitions for Analysis"))
-("PolynomialIntegrals" . ("dynarch.info" 109346 2023 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 111636 6771 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 118408 3906 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 122315 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 124278 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 128996 3304 "Definitions for Numerics"))
+("RouthLyapunov" . ("dynarch.info" 101131 5962 "Definitions for Analysis"))
+("EliminateMultipliers" . ("dynarch.info" 107094 1741 "Definitions for Analysis"))
+("LinearIntegrals" . ("dynarch.info" 108836 1127 "Definitions for Analysis"))
+("QuadraticIntegrals" . ("dynarch.info" 109964 815 "Definitions for Analysis"))
+("PolynomialIntegrals" . ("dynarch.info" 110780 2023 "Definitions for Analysis"))
+("Simulate" . ("dynarch.info" 113070 6771 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 119842 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 123749 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 125712 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 130430 3304 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 844 930))
@@ -78,8 +78,8 @@
 ("Definitions for velocities" . ("dynarch.info" 6748 2005))
 ("Definitions for LinModel" . ("dynarch.info" 8887 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39543 23153))
-("Definitions for Analysis" . ("dynarch.info" 62828 48541))
-("Definitions for Numerics" . ("dynarch.info" 111492 20808))
-("Systems by name" . ("dynarch.info" 132426 8986))
+("Definitions for Analysis" . ("dynarch.info" 62828 49975))
+("Definitions for Numerics" . ("dynarch.info" 112926 20808))
+("Systems by name" . ("dynarch.info" 133860 8986))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))
