@@ -69,8 +69,7 @@
 (defun archive-value-shown (value)
   "VALUE as the archive's writer spells it, a form that it does not know as Maxima does; cut after
 sixty letters."
-  (core-cut (if (stringp value)
-                (format nil "~s" value)
+  (core-cut (if (stringp value) (format nil "~s" value)
                 (or (first (core-attempt (lambda () (archive-spell value))))
                     (core-words (list value))))))
 
