@@ -19,7 +19,7 @@ public_functions() {
 calls() {
   (cd "$root/examples" && ls ./*.txt | sed 's|^\./||' | grep -v "$long") | while read -r archive; do
     public_functions | sed "s/\$/(\"$archive\", progress = false)/" # its lines come when they come
-  done
+  done | grep -v '^Equilibria("\(coupled_pendulums\|satellite_\)' # minutes of solving too
   cat <<'END'
 LagrangeEquations("spherical_pendulum.txt", simplify = true, progress = false)
 InvariantManifolds("spherical_pendulum.txt", extend = [theta], progress = false)

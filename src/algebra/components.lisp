@@ -19,7 +19,7 @@
 
 (defvar *algebra-whole-work* 0 "how many coefficients may be formed in all")
 (defvar *algebra-basis-shares* '(1) "of that: what one basis may take, at first and at last")
-(defparameter *algebra-basis-time* 1/12 "of the time left, for one basis")
+(defparameter *algebra-basis-time* 1/12 "of the time left, for one basis, 15 s at most")
 
 (defvar *algebra-factors-found* nil "the factors of elements that were met, by their terms")
 
@@ -95,7 +95,7 @@ was found of a basis, after little work and, where there were none, after more."
          (allowed (min before (floor (* share *algebra-whole-work*))))
          (answer (catch 'algebra-too-large
                    (setq *algebra-work-left* allowed)
-                   (values (core-within *algebra-basis-time* function)))))
+                   (values (core-within-at-most 15 *algebra-basis-time* function)))))
     (setq *algebra-work-left* (max (floor *algebra-whole-work* 4)
                                    (- before (- allowed *algebra-work-left*))))
     (if (eq answer 'too-large) nil answer)))

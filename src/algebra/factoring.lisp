@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size"))
+  (core-require "algebra/size" "core/watch"))
 
 (defparameter *algebra-factored-degree* 300 "The degree up to which a sum is factored.")
 
@@ -18,12 +18,22 @@
   "E as a product; what is longer than SIZE, or of high degree, is one factor."
   (cond ((or (atom e) (> (algebra-size e) size)) e)
         ((<= (algebra-degree-at-most e) *algebra-factored-degree*)
-         (or (algebra-quietly (lambda () ($algebra_factor e))) e))
+         (or (algebra-quietly (lambda () (algebra-factored-in-time e))) e))
         ((mtimesp e) (muln (loop for part in (cdr e) collect (algebra-in-factors part size)) nil))
         ((and (mexptp e) (typep (caddr e) '(integer 2)))
          (power (algebra-in-factors (cadr e) size) (caddr e)))
         ((mplusp e) (algebra-monomial-in-front e))
         (t e)))
+
+(defparameter *algebra-factored-at-once* 300
+  "The size up to which a sum is factored whatever it takes.")
+(defparameter *algebra-factoring-time* 1/40 "of the time left, for a longer one, 4 s at most")
+
+(defun algebra-factored-in-time (e)
+  "nil where that takes too long."
+  (if (<= (algebra-size e) *algebra-factored-at-once*)
+      ($algebra_factor e)
+      (values (core-within-at-most 4 *algebra-factoring-time* (lambda () ($algebra_factor e))))))
 
 (defun $algebra_factor (e)
   "Maxima's factor, to which roots of large numbers are names."

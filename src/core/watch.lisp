@@ -185,6 +185,11 @@ earlier.")
   (let ((left (core-seconds-left)))
     (core-timed (cond ((> time 1) time) (left (* time left))) function)))
 
+(defun core-within-at-most (seconds share function)
+  "The same with this SHARE of the time left, and never more than so many SECONDS."
+  (let ((left (core-seconds-left)))
+    (core-timed (if left (min seconds (* share left)) seconds) function)))
+
 (defun core-time (e)
   "E as a positive number."
   (cond ((and (realp e) (plusp e)) e)
