@@ -92,6 +92,16 @@
 (defun $algebra_size (e)
   (algebra-size e))
 
+(defun $algebra_size_with (e name value)
+  "The number of nodes of E with VALUE in the place of NAME, simplification aside."
+  (+ (algebra-size e) (* (algebra-count-of name e) (1- (algebra-size value)))))
+
+(defun algebra-count-of (name e)
+  "How often NAME stands in E."
+  (if (atom e)
+      (if (eq e name) 1 0)
+      (loop for part in (cdr e) sum (algebra-count-of name part))))
+
 (defun algebra-written-size (e)
   "The number of nodes of E written out, what is shared in memory counted every time."
   (let ((sizes (make-hash-table :test #'eq)))
