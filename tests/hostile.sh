@@ -7,8 +7,8 @@ here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
 root=$here/..
 . "$here/check"
 
-# in general parameters minutes of solving each; satellite_gyrostat.txt and satellite_gyrodyne.txt stand for them
-long='^satellite_rotor_\|^satellite_two_gyrodynes'
+# minutes of solving in general parameters, or half a minute that others of their kind stand for
+long='^\(Equilibria("\(coupled_pendulums\|satellite_rotor_\|satellite_two\)\|StationarySolutions("satellite_rotor_\)'
 timed='^ErrorAgainstTime$\|^ReferenceSolution$' # their answers depend on the time that runs take: called below
 
 public_functions() {
@@ -17,9 +17,9 @@ public_functions() {
 }
 
 calls() {
-  (cd "$root/examples" && ls ./*.txt | sed 's|^\./||' | grep -v "$long") | while read -r archive; do
+  (cd "$root/examples" && ls ./*.txt | sed 's|^\./||') | while read -r archive; do
     public_functions | sed "s/\$/(\"$archive\", progress = false)/" # its lines come when they come
-  done | grep -v '^Equilibria("\(coupled_pendulums\|satellite_\)' # minutes of solving too
+  done | grep -v "$long"
   cat <<'END'
 LagrangeEquations("spherical_pendulum.txt", simplify = true, progress = false)
 InvariantManifolds("spherical_pendulum.txt", extend = [theta], progress = false)

@@ -18,14 +18,16 @@
 
 (defstruct core-deadline
   at      ; internal real time, or nil: never
+  work    ; the same of the processor: what is found so does not depend on what else runs
   began)
 
-(defun core-new-deadline (seconds)
-  "A deadline SECONDS from now; nil is none."
-  (let ((now (get-internal-real-time)))
-    (make-core-deadline :began now
-                        :at (and seconds
-                                 (+ now (ceiling (* seconds internal-time-units-per-second)))))))
+(defun core-new-deadline (seconds &optional seconds-of-work)
+  "A deadline SECONDS from now, or after so many SECONDS-OF-WORK of the processor; nil is none."
+  (flet ((after (now seconds)
+           (and seconds (+ now (ceiling (* seconds internal-time-units-per-second))))))
+    (let ((now (get-internal-real-time)))
+      (make-core-deadline :began now :at (after now seconds)
+                          :work (after (get-internal-run-time) seconds-of-work)))))
 
 (defun core-seconds-since (time)
   (/ (- (get-internal-real-time) time) internal-time-units-per-second))
@@ -38,16 +40,20 @@
 
 (defun core-passed-deadline ()
   "The outermost deadline that has passed, or nil."
-  (let ((now (get-internal-real-time)))
-    (find-if (lambda (deadline)
-               (and (core-deadline-at deadline) (<= (core-deadline-at deadline) now)))
-             *core-deadlines* :from-end t)))
+  (find-if (lambda (deadline) (<= 0 (core-seconds-late deadline))) *core-deadlines* :from-end t))
+
+(defun core-seconds-late (deadline)
+  "Negative while it has not passed."
+  (flet ((late (now time) (if time (/ (- now time) internal-time-units-per-second) -1)))
+    (max (late (get-internal-real-time) (core-deadline-at deadline))
+         (late (get-internal-run-time) (core-deadline-work deadline)))))
 
 (defun core-postpone (ticks)
   "All deadlines come TICKS later, as if their work had begun later."
   (dolist (deadline *core-deadlines*)
     (incf (core-deadline-began deadline) ticks)
-    (when (core-deadline-at deadline) (incf (core-deadline-at deadline) ticks))))
+    (when (core-deadline-at deadline) (incf (core-deadline-at deadline) ticks))
+    (when (core-deadline-work deadline) (incf (core-deadline-work deadline) ticks))))
 
 (defun core-clock ()
   "Seconds of the clock on the wall, to a microsecond where the Lisp has that; internal real time
@@ -118,7 +124,7 @@ to the next line of progress begin anew."
       (cond ((null late)
              (when (and *core-progress* (>= now *core-next-line*) (funcall may-write-p))
                (core-say-progress now)))
-            ((funcall may-stop-p (core-seconds-since (core-deadline-at late)))
+            ((funcall may-stop-p (core-seconds-late late))
              (core-stop late (core-late-text)))))))
 
 (defun core-watch ()
@@ -169,9 +175,10 @@ earlier.")
          (*core-next-line* (+ *core-call-began* (* 2 internal-time-units-per-second))))
     (funcall *core-alarm* seconds function)))
 
-(defun core-timed (seconds function)
-  "As core-until, SECONDS from now; nil is no limit. Inside a call its deadline counts too."
-  (let ((deadline (core-new-deadline seconds)))
+(defun core-timed (seconds function &optional seconds-of-work)
+  "As core-until, SECONDS from now or after so many SECONDS-OF-WORK; nil is no limit. Inside a call
+its deadline counts too."
+  (let ((deadline (core-new-deadline seconds seconds-of-work)))
     (flet ((timed () (core-until deadline function)))
       (if *core-deadlines* (timed) (core-call-outermost seconds #'timed)))))
 
@@ -186,9 +193,9 @@ earlier.")
     (core-timed (cond ((> time 1) time) (left (* time left))) function)))
 
 (defun core-within-at-most (seconds share function)
-  "The same with this SHARE of the time left, and never more than so many SECONDS."
+  "The same with this SHARE of the time left, and never more than so many SECONDS of work."
   (let ((left (core-seconds-left)))
-    (core-timed (if left (min seconds (* share left)) seconds) function)))
+    (core-timed (and left (* share left)) function seconds)))
 
 (defun core-time (e)
   "E as a positive number."
@@ -200,6 +207,14 @@ earlier.")
   ;; core_within(time, e): [value of e], or [] when the time is up. From 1 down it is a share of
   ;; the time that the call has left. Errors are not caught.
   (destructuring-bind (time e) (cdr form)
-    (multiple-value-bind (value stop)
-        (core-within (core-time (meval time)) (lambda () (meval e)))
-      (if stop '((mlist simp)) (list '(mlist simp) value)))))
+    (core-in-time #'core-within (core-time (meval time)) (lambda () (meval e)))))
+
+(defmspec $core_within_work (form)
+  ;; core_within_work(seconds, e): the same with seconds of the processor, a tenth of the time left
+  ;; at most.
+  (destructuring-bind (seconds e) (cdr form)
+    (core-in-time #'core-within-at-most (core-time (meval seconds)) 1/10 (lambda () (meval e)))))
+
+(defun core-in-time (within &rest arguments)
+  (multiple-value-bind (value stop) (apply within arguments)
+    (if stop '((mlist simp)) (list '(mlist simp) value))))
