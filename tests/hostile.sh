@@ -8,7 +8,8 @@ root=$here/..
 . "$here/check"
 
 # minutes of solving in general parameters, or half a minute that others of their kind stand for
-long='^\(Equilibria("\(coupled_pendulums\|satellite_rotor_\|satellite_two\)\|StationarySolutions("satellite_rotor_\)'
+long='^Equilibria("\(coupled_pendulums\|satellite_rotor_\|satellite_two\)\|^StationarySolutions("satellite_rotor_'
+long="$long"'\|^QuadraticIntegrals("satellite_two'
 timed='^ErrorAgainstTime$\|^ReferenceSolution$' # their answers depend on the time that runs take: called below
 
 public_functions() {

@@ -70,6 +70,7 @@
                    (push slope entries))))
       (setf (aref columns j) (nreverse (aref columns j))))
     (make-numerics-problem :size n :rates (test-function rates variables)
+                           :timed (not (every (lambda (rate) (freeof '$t rate)) rates))
                            :jacobian (test-function (nreverse entries) variables)
                            :pattern (numerics-pattern-of-columns columns)
                            :mass (and mass (test-matrix mass)) :names variables)))

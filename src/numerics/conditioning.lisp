@@ -69,6 +69,7 @@ where METHOD, a function such as numerics-dopri, does not reach the end."
         (pattern (numerics-problem-pattern problem)))
     (make-numerics-problem
      :size (* 2 n) :rates (numerics-variational-rates problem)
+     :timed (numerics-problem-timed problem)
      :jacobian (and pattern (numerics-doubled-jacobian problem))
      :pattern (and pattern (numerics-doubled-pattern pattern))
      :mass (and mass (make-numerics-matrix

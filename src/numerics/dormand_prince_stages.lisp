@@ -18,6 +18,7 @@
   (scales (numerics-zeros 0) :type numerics-vector)
   (relative 0d0 :type double-float)
   (largest-step 0d0 :type double-float)
+  (timed t)                                    ; whether the rates depend on the time
   (size 0 :type fixnum)
   (step 0d0 :type double-float)                ; with its sign
   (error 0d0 :type double-float)               ; of the last trial, over the tolerance
@@ -50,7 +51,7 @@
       (make-numerics-dopri-run
        :problem problem :controls controls :rates (numerics-problem-rates problem) :size n
        :scales (numerics-full-scales controls n)
-       :relative (numerics-controls-relative controls)
+       :relative (numerics-controls-relative controls) :timed (numerics-problem-timed problem)
        :largest-step (numerics-largest-step controls moment)
        :pace (make-numerics-pace :moment (copy-seq moment))
        :moment (copy-seq moment) :state (copy-seq state) :next (numerics-zeros n)
@@ -83,8 +84,9 @@ is checked: a sixth of the time."
        (numerics-for-states (i n)
          (setf (aref stage i)
                (+ (aref state i) (* step (numerics-slope-sum :stage ,number i)))))
-       (setf (aref later 0) (aref moment 0) (aref later 1) (aref moment 1))
-       (numerics-advance later (* step ,(numerics-dopri-node number)))
+       (when (numerics-dopri-timed ,run)
+         (setf (aref later 0) (aref moment 0) (aref later 1) (aref moment 1))
+         (numerics-advance later (* step ,(numerics-dopri-node number))))
        (funcall (numerics-dopri-rates ,run) later stage (svref slopes ,number)))))
 
 (defmacro numerics-dopri-slopes-from (run first last)

@@ -65,7 +65,7 @@
   time-slope ; nil, or (time x out): dX/dt
   mass       ; nil for the identity, else a constant numerics-matrix
   names      ; Maxima expressions of the states, for messages
-  timed      ; whether the rates depend on the time
+  (timed t)  ; whether the rates depend on the time
   split      ; nil, or the number k where x = (q, v), q' = v, and v' depends on q, v and t (k = n/2)
   program)   ; what the rates were made from, for methods in other arithmetics: numerics-program
 
