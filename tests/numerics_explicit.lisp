@@ -14,9 +14,16 @@
 
 (defvar *numbers-problems* (make-hash-table))
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (defun numbers-stands-in-p (name form)
+    (if (consp form)
+        (or (numbers-stands-in-p name (car form)) (numbers-stands-in-p name (cdr form)))
+        (eq form name))))
+
 (defmacro define-numbers-problem (name (&rest states) &rest slopes)
   "The rates SLOPES of STATES, which may use the time as time; or other functions of them."
-  `(setf (gethash ',name *numbers-problems*)
+  `(setf (get ',name 'timed) ,(numbers-stands-in-p 'time slopes)
+         (gethash ',name *numbers-problems*)
          (lambda (moment x out)
            (declare (type numerics-vector moment x out) (ignorable moment))
            (let ((time (aref moment 0))
@@ -91,7 +98,7 @@
 
 (defun numbers-problem (name)
   (let ((rates (gethash name *numbers-problems*)))
-    (lambda (n) (make-numerics-problem :size n :rates rates))))
+    (lambda (n) (make-numerics-problem :size n :rates rates :timed (get name 'timed)))))
 
 (defun numbers-result (outcome counts &rest more)
   (flet ((field (name value) (list '(mequal simp) name value)))
