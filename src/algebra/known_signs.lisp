@@ -12,7 +12,7 @@
                 "algebra/factoring" "algebra/evaluate" "algebra/noun_values" "algebra/root_kernels"
                 "algebra/scan"))
 
-(defparameter *algebra-kept-knowledge* 500 "For how many lists of facts knowledge is kept.")
+(defparameter *algebra-kept-knowledge* 1500 "For how many lists of facts knowledge is kept.")
 (defvar *algebra-knowledges* (make-hash-table :test 'equal) "Knowledge by lists of facts.")
 
 (defun algebra-what-is-known ()

@@ -6,6 +6,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "core/born_symbols"))
+
 (defvar *core-clean* nil "True in the clean session.")
 (defvar *core-kept-values* nil
   "Variables that share packages bound in the clean session, with their values: seen there only.")
@@ -28,10 +31,6 @@
     (bfhalf (bigfloat simp 56) #.(expt 2 55) 0) (bfmhalf (bigfloat simp 56) #.(- (expt 2 55)) 0)
     (bigfloatone (bigfloat simp 56) #.(expt 2 55) 1) (bigfloatzero (bigfloat simp 56) 0 0))
   "What Maxima's options, tellrat and the orders of names keep in variables of Lisp, as born.")
-
-(defparameter *core-lasting-properties*
-  '(data con +labs -labs ulabs cmark subc fact var obj wn mark noun verb)
-  "Properties that are not hidden: those of the data base of facts, and the bond of noun and verb.")
 
 (defun core-with-values (names values function)
   "Calls FUNCTION while NAMES have VALUES, or none where VALUES run out. (GCL cannot load a
@@ -79,10 +78,6 @@ default is to print a line."
 
 ;;; Operators: what the tokenizer takes for one, and the symbol it becomes
 
-(defun core-born-properties (symbol)
-  "What Maxima was born with; the second value tells whether SYMBOL is one of its own."
-  (gethash symbol *builtin-symbol-props*))
-
 (defun core-token (text)
   "The symbol by which the parser knows the operator TEXT."
   (intern (concatenate 'string "$" (maybe-invert-string-case text)) :maxima))
@@ -127,8 +122,6 @@ default is to print a line."
 (defun core-property-subset (plist test)
   (loop for (key value) on plist by #'cddr when (funcall test key) append (list key value)))
 
-(defun core-lasting-p (key) (member key *core-lasting-properties*))
-
 (defun core-own-properties (plist)
   (core-property-subset plist (complement #'core-lasting-p)))
 
@@ -157,17 +150,6 @@ removes, rules before their simplifier, the derivative of abs."
       (core-internal-properties symbol)
       (copy-tree (core-born-properties symbol))))
 
-(defun core-changed-p (symbol)
-  "Whether SYMBOL of Maxima has other properties than at birth, lasting ones apart. All its symbols
-are asked at each call: what is as it was is passed over in step, without a copy."
-  (loop with now = (symbol-plist symbol) and born = (core-born-properties symbol)
-        while (or now born)
-        do (cond ((and now born (eq (car now) (car born)) (equal (cadr now) (cadr born)))
-                  (setq now (cddr now) born (cddr born)))
-                 ((and now (core-lasting-p (car now))) (setq now (cddr now)))
-                 ((and born (core-lasting-p (car born))) (setq born (cddr born)))
-                 (t (return t)))))
-
 (defun core-named-symbols (item)
   "The symbols whose properties an entry ITEM of an information list stands for. (wxMaxima puts
 strings that are no operators there.)"
@@ -187,7 +169,7 @@ strings that are no operators there.)"
     (remove-duplicates
      (append (remove-if (lambda (s) (or (null s) (nth-value 1 (core-born-properties s))))
                         (append named (mapcar (lambda (s) (get s 'noun)) named)))
-             (remove-if-not #'core-changed-p *builtin-symbols*)))))
+             (core-changed-symbols)))))
 
 ;;; Functions. Maxima forgets its own one when the user defines one of the same name or traces it.
 
