@@ -149,7 +149,7 @@
 (core-option :truth "replace")
 (core-rule "netlist_text" '("circuit") "circuits/write_netlist" "circuits_netlist_text" "circuit"
   '("values" ((mlist simp))) '("where" ((mlist simp))) '("nodes" ((mlist simp)))
-  "whole_start" '("time" ((mlist simp))))
+  "whole_start" '("time" ((mlist simp))) '("title" ""))
 (core-rule "whole_start" '("circuit") "circuits/start" "circuits_whole_start" "circuit"
   '("values" ((mlist simp))) '("where" ((mlist simp))) '("start" ((mlist simp)))
   '("time" ((mlist simp))))

@@ -30,7 +30,7 @@
   (algebra-write-file file (lambda (stream) (write-string text stream)))
   file)
 
-(defun $circuits_netlist_text (circuit values where nodes start time)
+(defun $circuits_netlist_text (circuit values where nodes start time title)
   "CIRCUIT with numbers as the text of a netlist."
   (let ((cards (circuits-new-cards circuit (cons '(mlist) (append (cdr where) (cdr values)))
                                    nodes start)))
@@ -40,8 +40,18 @@
           for k from 1
           do (circuits-write-transformer cards transformer k))
     (circuits-tie-pieces cards)
-    (format nil "circuit~%~{~a~%~}~@[~a~%~].end~%" (reverse (circuits-card-file-lines cards))
-            (circuits-span-line time))))
+    (format nil "~a~%~{~a~%~}~@[~a~%~].end~%" (circuits-title-line title)
+            (reverse (circuits-card-file-lines cards)) (circuits-span-line time))))
+
+(defun circuits-title-line (title)
+  "TITLE as the first line; circuit where it is none. ngspice obeys a first line that begins with a
+dot, with *# or as *ng_script: these begin with a star apart."
+  (let ((line (string-trim " " (substitute-if #\Space (lambda (c) (< (char-code c) 32)) title))))
+    (flet ((begins (word) (eql 0 (search word line :test #'char-equal))))
+      (cond ((string= line "") "circuit")
+            ((begins ".") (format nil "* ~a" line))
+            ((or (begins "*#") (begins "*ng_script")) (format nil "* ~a" (subseq line 1)))
+            (t line)))))
 
 (defun circuits-new-cards (circuit numbers nodes start)
   (let* ((branches (cdr ($circuits_circuit_branches circuit)))
