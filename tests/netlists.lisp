@@ -71,11 +71,11 @@
 (defun $netlist_file (type)
   (format nil "~a/netlist-test-~d.~a" $maxima_tempdir *netlist-number* type))
 
-(defun $netlist_values (file)
-  "The key values of the archive FILE, of a description list too."
-  ($core_get (archive-description (if (stringp file) (archive-open-system file)
-                                      (archive-open-list file)))
-             '$values '((mlist))))
+(defun $netlist_read (file)
+  "The description in the archive FILE, of a description list too."
+  (archive-description (if (stringp file) (archive-open-system file) (archive-open-list file))))
+
+(defun $netlist_values (file) ($core_get ($netlist_read file) '$values '((mlist))))
 
 (defun netlist-shell (control &rest arguments)
   (netlist-status (apply #'format nil control arguments)))

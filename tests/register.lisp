@@ -45,8 +45,9 @@
                 collect (list '(mlist simp) (rule-function rule) count))))
 
 (defun register-known-names ()
-  "Names of quantities, arguments, options, keys of [system] and what its reader marks."
-  (append (loop for name being the hash-keys of *core-rules* collect name)
+  "Names of quantities, arguments, options, keys of the archive and what its reader marks."
+  (append (mapcar #'first *archive-top-rows*)
+          (loop for name being the hash-keys of *core-rules* collect name)
           (loop for public being the hash-values of *core-publics*
                 append (core-public-options public)
                 append (core-public-trailing public)

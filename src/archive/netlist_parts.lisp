@@ -189,11 +189,16 @@
     (cond ((plusp depth) (archive-net-fault "~a is not read inside of a subcircuit" command))
           ((string= command ".tran") (archive-net-take-span netlist fields))
           ((string= command ".ic") (archive-net-take-initial netlist fields))
-          ((string= command ".title"))
+          ((string= command ".title") (archive-net-take-title netlist line))
           ((member command *archive-net-ignored* :test #'string=)
            (archive-net-check-temperature fields)
            (archive-net-ignore netlist command))
           (t (archive-net-fault "~a is not read" (archive-shown command))))))
+
+(defun archive-net-take-title (netlist line)
+  "What stands behind .title takes the place of the first line."
+  (setf (netlist-title netlist)
+        (archive-net-trimmed (subseq (net-line-text line) (length ".title")))))
 
 (defun archive-net-check-temperature (fields)
   (when (intersection fields '("temp" "tnom" "gmin" "scale") :test #'string-equal)

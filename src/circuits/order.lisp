@@ -7,7 +7,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/factoring" "algebra/sign" "algebra/size"
-                "circuits/solved_tableau" "circuits/tableau_reduction"))
+                "circuits/open_laws" "circuits/tableau_reduction"))
 
 (defun $circuits_order_drops (solution)
   "Factors of the leading coefficient that may vanish, as a list."
@@ -41,9 +41,9 @@
 ;;; A circuit whose branches do not determine it has no order: then there is the reason.
 
 (defun $circuits_solution_or_why (circuit)
-  "The solved tableau, or the text of the error that it ends in."
+  "What circuits_opened_tableau gives, or the text of the error that it ends in."
   (let* ((text nil)
          (found (let (($errormsg nil) ($error $error))
-                  (or (errcatch (mfuncall '$circuits_solved_tableau circuit))
+                  (or (errcatch (mfuncall '$circuits_opened_tableau circuit))
                       (progn (setq text (car (last $error))) nil)))))
     (if found (car found) (core-unnamed text))))

@@ -76,8 +76,10 @@
 ;;; What each branch does
 
 (core-public "BranchQuantities" :kinds '("circuit"))
-(core-rule "BranchQuantities" '("circuit") "circuits/branch_quantities"
-  "circuits_branch_quantities" "circuit" "tableau")
+(core-middle "opened_tableau" '("circuit") "circuits/open_laws" "circuits_opened_tableau"
+  "circuit")
+(core-rule "BranchQuantities" '("circuit") "circuits/open_laws" "circuits_opened_quantities"
+  "circuit" "opened_tableau")
 
 (core-public "PotentialRate"
   :forms '(("potential" "MixedPotential" "inductances" "capacitances")) :kinds '("circuit"))
@@ -157,4 +159,4 @@
   :trailing '("netlist") :options '("values" "where" "start" "time" "replace")
   :kinds '("circuit"))
 (core-act "WriteNetlist" nil '("circuit") "circuits/write_netlist" "circuits_write_netlist"
-  "netlist_text" "netlist" '("replace" nil))
+  "netlist_text" "netlist" '("replace" nil) '("title" ""))

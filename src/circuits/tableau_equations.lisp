@@ -107,10 +107,8 @@
 
 (defun circuits-laws-resolved (solution)
   "((name . f(argument)) ..) of the nonlinear resistors."
-  (let ((tableau (circuits-solution-tableau solution)) (resolved '()) (waiting '()))
-    (loop for branch across (circuits-tableau-branches tableau)
-          do (when (circuits-type-in-p branch '|$ru| '|$ri|)
-               (push (list branch (circuits-argument-row solution branch)) waiting)))
+  (let ((tableau (circuits-solution-tableau solution)) (resolved '())
+        (waiting (circuits-law-arguments solution)))
     (loop while waiting
           do (let ((ready (find-if (lambda (item) (circuits-ready-p tableau item waiting))
                                    waiting)))
@@ -122,6 +120,14 @@
                                               (circuits-row-expression solution (second ready)))))
                      resolved)))
     resolved))
+
+(defun circuits-law-arguments (solution)
+  "((branch row) ..): the arguments of the nonlinear resistors, the last branch first."
+  (let ((found '()))
+    (loop for branch across (circuits-tableau-branches (circuits-solution-tableau solution))
+          do (when (circuits-type-in-p branch '|$ru| '|$ri|)
+               (push (list branch (circuits-argument-row solution branch)) found)))
+    found))
 
 (defun circuits-ready-p (tableau item waiting)
   "Whether the argument of ITEM depends on no law that is still WAITING."

@@ -22,16 +22,17 @@
   (words (make-hash-table :test #'equal))   ; (sort key) -> name; (sort small name) -> t
   (lines '()))   ; newest first
 
-(defun $circuits_write_netlist (text file replace)
-  "Writes TEXT to FILE, whose name is returned."
+(defun $circuits_write_netlist (text file replace title)
+  "Writes TEXT under TITLE to FILE, whose name is returned."
   (unless (stringp file)
     (core-error "the second argument is the name of a file, found ~a" (core-words (list file))))
   (algebra-check-new-file file replace)
-  (algebra-write-file file (lambda (stream) (write-string text stream)))
+  (algebra-write-file file (lambda (stream)
+                              (format stream "~a~%~a" (circuits-title-line title) text)))
   file)
 
 (defun $circuits_netlist_text (circuit values where nodes start time)
-  "CIRCUIT with numbers as the text of a netlist."
+  "CIRCUIT with numbers as the text of a netlist, below its title."
   (let ((cards (circuits-new-cards circuit (cons '(mlist) (append (cdr where) (cdr values)))
                                    nodes start)))
     (dolist (branch (circuits-card-file-branches cards)) (circuits-write-branch cards branch))
@@ -40,8 +41,18 @@
           for k from 1
           do (circuits-write-transformer cards transformer k))
     (circuits-tie-pieces cards)
-    (format nil "circuit~%~{~a~%~}~@[~a~%~].end~%" (reverse (circuits-card-file-lines cards))
+    (format nil "~{~a~%~}~@[~a~%~].end~%" (reverse (circuits-card-file-lines cards))
             (circuits-span-line time))))
+
+(defun circuits-title-line (title)
+  "TITLE as the first line; circuit where it is none. ngspice obeys a first line that begins with a
+dot, with *# or as *ng_script: these begin with a star apart."
+  (let ((line (string-trim " " (substitute-if #\Space (lambda (c) (< (char-code c) 32)) title))))
+    (flet ((begins (word) (eql 0 (search word line :test #'char-equal))))
+      (cond ((string= line "") "circuit")
+            ((begins ".") (format nil "* ~a" line))
+            ((or (begins "*#") (begins "*ng_script")) (format nil "* ~a" (subseq line 1)))
+            (t line)))))
 
 (defun circuits-new-cards (circuit numbers nodes start)
   (let* ((branches (cdr ($circuits_circuit_branches circuit)))

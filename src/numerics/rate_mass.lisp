@@ -62,7 +62,8 @@
          (stays (if singular
                     (not (eq solved t))
                     (and constant (cdr group) (numerics-mass-stays-p group solved)))))
-    (when (and singular (not stays)) (numerics-fault-group names))
+    (when (and singular (not stays))
+      (if (every #'null rows) (numerics-fault-algebraic names) (numerics-fault-group names)))
     (when (and numbers (cdr group) (not singular))
       (numerics-guard-group rates (numerics-constant-guards names rows numbers)))
     (unless stays
@@ -90,6 +91,12 @@
 (defun numerics-fault-group (names)
   (core-error "the matrix of ~{~a~^, ~} is singular: the rates do not follow from the equations"
               (mapcar (lambda (x) (core-words (list x))) names)))
+
+(defun numerics-fault-algebraic (names)
+  (core-error "~{~a~^, ~} ~:[has~;have~] no rate, but an equation 0 = ..: Simulate serves such; ~
+               else put in what follows from it, and give equations 'diff(x,t) = .. of the ~
+               variables that are left"
+              (mapcar (lambda (x) (core-words (list x))) names) (cdr names)))
 
 (defun numerics-solve-group (names group rows right)
   "The steps of the elimination by which the elements of GROUP in RIGHT are solved."
