@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/normal" "algebra/evaluate"
-                "algebra/quotient" "algebra/scan"))
+  (core-require "algebra/branch_slopes" "algebra/size" "algebra/kernels" "algebra/normal"
+                "algebra/evaluate" "algebra/quotient" "algebra/scan"))
 
 (defun $algebra_jacobian (es xs)
   "The matrix of de_i/dx_j, normal."
@@ -57,7 +57,8 @@
            collect (cons unit (algebra-scan ($diff (algebra-unit-exponent unit) x))))
    (loop for kernel in (copy-list (algebra-ring-kernels *algebra-ring*))
          unless (algebra-free-p x (algebra-kernel-expression kernel))
-           collect (cons kernel (algebra-scan ($diff (algebra-kernel-expression kernel) x))))))
+           collect (cons kernel (algebra-scan
+                                 ($algebra_diff (algebra-kernel-expression kernel) x))))))
 
 (defun algebra-free-p (x e)
   (not (among x e)))

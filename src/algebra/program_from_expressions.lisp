@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/program_branches" "algebra/program_nodes"))
+  (core-require "algebra/branch_slopes" "algebra/size" "algebra/program_branches"
+                "algebra/program_nodes"))
 
 ;;; From expressions.
 
@@ -55,7 +56,7 @@
       ($min (algebra-converted-extreme (mapcar element (cdr e)) -1))
       ($unit_step (algebra-program-positive (part)))
       ($piecewise (algebra-converted-pieces e element))
-      (%derivative (algebra-derivative-input e))
+      (%derivative (algebra-converted-derivative e element))
       (t (algebra-converted-function e element)))))
 
 (defun algebra-converted-function (e element)
@@ -77,6 +78,11 @@
               (if (char= (char (string (caar e)) 0) #\$)
                   (format nil "; give ~a a formula in laws" (core-spelling (caar e)))
                   "")))
+
+(defun algebra-converted-derivative (e element)
+  "An input, or the derivative of a function with branches."
+  (let ((carried (algebra-branches-carried e)))
+    (if (eq carried e) (algebra-derivative-input e) (funcall element carried))))
 
 (defun algebra-derivative-input (e)
   (if (or (symbolp (second e)) (algebra-subscripted-p (second e)))

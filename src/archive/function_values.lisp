@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Functions in archives. First what they are at simplified arguments, for text that nobody vouches
-;;; for: abs, signum, max, min by signs that the form of an expression shows, roots and exponentials
-;;; as powers, all others by Maxima, where it finds a value. Then how other programs and other
-;;; schools spell them. Look first at archive-function-value.
+;;; for: abs, signum, unit_step, max, min by signs that the form of an expression shows, roots and
+;;; exponentials as powers, all others by Maxima, where it finds a value. Then how other programs
+;;; and other schools spell them. Look first at archive-function-value.
 
 (in-package :maxima)
 
@@ -16,6 +16,7 @@
     (%exp (archive-power '$%e (car arguments)))
     (mabs (archive-absolute-value (car arguments)))
     (%signum (archive-signum (car arguments)))
+    ($unit_step (archive-unit-step (car arguments)))
     (($max $min) (archive-extremum operator arguments))
     ($atan2 (archive-atan2 arguments))
     (%log (archive-logarithm (car arguments)))
@@ -46,6 +47,12 @@
     ($neg -1)
     ($zero e)
     (t (archive-inert '%signum (list e)))))
+
+(defun archive-unit-step (e)
+  (case (archive-plain-sign e)
+    ($pos 1)
+    (($neg $zero) 0)
+    (t (archive-inert '$unit_step (list e)))))
 
 (defun archive-extremum (operator arguments)
   (if (every #'mnump arguments)

@@ -19,7 +19,7 @@
   '(("sin" %sin 1) ("cos" %cos 1) ("tan" %tan 1) ("cot" %cot 1) ("sec" %sec 1) ("csc" %csc 1)
     ("asin" %asin 1) ("acos" %acos 1) ("atan" %atan 1) ("atan2" $atan2 2)
     ("sinh" %sinh 1) ("cosh" %cosh 1) ("tanh" %tanh 1) ("exp" %exp 1) ("log" %log 1)
-    ("sqrt" %sqrt 1)
+    ("sqrt" %sqrt 1) ("unit_step" $unit_step 1)
     ("abs" mabs 1) ("signum" %signum 1) ("max" $max nil) ("min" $min nil))
   "Functions of numbers: name, Maxima's name, number of arguments (nil: one or more).")
 

@@ -28,7 +28,7 @@
     (%asin . "asin") (%acos . "acos") (%atan . "atan") ($atan2 . "atan2") (%atan2 . "atan2")
     (%sinh . "sinh") (%cosh . "cosh") (%tanh . "tanh") (%log . "log") (%sqrt . "sqrt")
     (%exp . "exp") (mabs . "abs") (%signum . "signum") ($signum . "signum")
-    ($max . "max") (%max . "max") ($min . "min") (%min . "min")
+    ($max . "max") (%max . "max") ($min . "min") (%min . "min") ($unit_step . "unit_step")
     ($integrate . "integrate") (%integrate . "integrate") ($at . "at") (%at . "at")
     ($matrix . "matrix") ($notequal . "notequal") (mnotequal . "notequal")
     ($piecewise . "piecewise") (|$RealRoot| . "RealRoot")))

@@ -8,9 +8,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/factoring" "circuits/coefficients" "circuits/element_laws"
-                "circuits/elements" "circuits/tableau" "circuits/tableau_equations"
-                "circuits/tableau_reduction"))
+  (core-require "algebra/branch_slopes" "algebra/factoring" "circuits/coefficients"
+                "circuits/element_laws" "circuits/elements" "circuits/tableau"
+                "circuits/tableau_equations" "circuits/tableau_reduction"))
 
 (defun $circuits_symmetric_potential (solution)
   (let* ((states (circuits-solution-states solution))
@@ -161,7 +161,7 @@
 
 (defun $circuits_rate_along (solution potential)
   (let ((rates (cdr ($circuits_tableau_rates solution))))
-    (addn (cons ($diff potential '$t)
+    (addn (cons ($algebra_diff potential '$t)
                 (loop for (nil left right) in rates
-                      collect (mul ($diff potential (cadr left)) right)))
+                      collect (mul ($algebra_diff potential (cadr left)) right)))
           nil)))

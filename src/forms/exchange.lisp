@@ -75,6 +75,16 @@
   "A function in E that has no derivative at POINT, equations; else false."
   (forms-kink-at e (forms-putting (cdr point))))
 
+(defun $forms_kink_derived (e point)
+  "A function in E whose derivative stands in E and does not exist at POINT, equations; or false."
+  (cond ((atom e) nil)
+        ((eq (caar e) '%derivative)
+         (and (forms-kinked-p (cadr e))
+              (null (core-attempt (lambda ()
+                                    (forms-kinked-slope e (forms-putting (cdr point)) point))))
+              (cadr e)))
+        (t (some (lambda (part) ($forms_kink_derived part point)) (cdr e)))))
+
 (defun $forms_jump_at (e moving point)
   "A function in E, in which the names MOVING move, that may jump at POINT, equations; else false."
   (forms-jump-at e (forms-putting (cdr point)) (cdr moving)))
@@ -173,7 +183,8 @@
                          collect (list '(mequal simp) old new))))
 
 (defun forms-at-noun (e equations)
-  (or (and (consp e) (forms-kinked-slope e (forms-putting equations)))
+  (or (and (consp e) (forms-kinked-slope e (forms-putting equations)
+                                         (cons '(mlist simp) equations)))
       (forms-at-noun-itself e equations)))
 
 (defun forms-at-noun-itself (e equations)

@@ -2,13 +2,15 @@
 ;;; Functions with branches: piecewise([condition, value], ..), of which Maxima knows nothing, after
 ;;; names in it got values; and derivatives at a point of max, min, abs, signum, unit_step and
 ;;; piecewise. Near a point where it is decided which branch holds the function is that branch, and
-;;; so is its derivative; where two branches meet there is none. And functions that jump, such as
-;;; atan2 on its cut and floor. See forms-piecewise, forms-kinked-slope and forms-jump-at first.
+;;; so is its derivative; where branches meet it has a derivative if they all have the same value
+;;; and the same gradient there: f(q) - f(p) is f_b(q) - f_b(p) = f'(p)*(q - p) + o(q - p) for one
+;;; of them. And functions that jump, such as atan2 on its cut and floor. See forms-piecewise,
+;;; forms-branches and forms-jump-at first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/sign" "algebra/size"))
+  (core-require "algebra/sign" "algebra/size" "algebra/zero"))
 
 (defun forms-piecewise (pieces)
   "The value of PIECES, or piecewise of those whose condition may hold."
@@ -52,77 +54,122 @@
 
 (defparameter *forms-kinked* '($max $min mabs %signum $unit_step $piecewise))
 
+(defparameter *forms-most-branches* 64 "With more that may meet at a point nothing is decided.")
+
 (defun forms-kinked-p (e)
+  "Whether functions with branches stand in E; an integral of one has none of its own."
   (and (consp e)
-       (or (member (caar e) *forms-kinked*) (some #'forms-kinked-p (cdr e)))))
+       (not (member (caar e) '(%integrate %sum %product %limit %at %derivative)))
+       (or (and (member (caar e) *forms-kinked*) t) (some #'forms-kinked-p (cdr e)))))
 
-(defun forms-kinked-slope (e at-point)
-  "The derivative noun E at a point, AT-POINT being the function that puts it in; nil where it is
-not decided which branch holds there."
+(defun forms-kinked-slope (e at-point place)
+  "The derivative noun E at the point PLACE, AT-POINT being the function that puts it in; nil where
+it is not decided which branch holds there."
   (when (and (eq (caar e) '%derivative) (forms-kinked-p (cadr e)))
-    (let ((branch (catch 'forms-no-branch (forms-branch (cadr e) at-point))))
-      (when (and branch (not (forms-kinked-p branch)))
-        (funcall at-point (apply #'$diff branch (cddr e)))))))
+    (let ((branches (forms-branches-or-nil (cadr e) at-point)))
+      (cond ((null branches) nil)
+            ((null (cdr branches)) (funcall at-point (apply #'$diff (car branches) (cddr e))))
+            ((and (eql 1 (fourth e)) (null (cddddr e))
+                  (forms-branches-agree-p branches (list (third e)) at-point))
+             (funcall at-point ($diff (car branches) (third e))))
+            (t (core-error "~a has no derivative at ~a"
+                           (core-words (list (cadr e))) (core-words (list place))))))))
 
-(defun forms-branch (e at-point)
-  "E with the branches that hold at the point; leaves forms-no-branch with nil where that is open."
-  (cond ((not (forms-kinked-p e)) e)
-        ((not (member (caar e) *forms-kinked*))
-         (forms-with-parts e (mapcar (lambda (part) (forms-branch part at-point)) (cdr e))))
-        ((eq (caar e) '$piecewise) (forms-piece e at-point))
-        (t (let ((parts (mapcar (lambda (part) (forms-branch part at-point)) (cdr e))))
-             (ecase (caar e)
-               (%signum (forms-side-of e (car parts) at-point))
-               (mabs (mul (forms-side-of e (car parts) at-point) (car parts)))
-               ($unit_step (if (eql 1 (forms-side-of e (car parts) at-point)) 1 0))
-               (($max $min) (forms-extreme e parts at-point)))))))
+(defun forms-branches-or-nil (e at-point)
+  (catch 'forms-no-branch (forms-branches e at-point)))
 
-(defun forms-side-of (e u at-point)
-  "1 or -1, the sign of U at the point; E, whose kink it is, has no derivative where U is 0."
+(defun forms-branches (e at-point)
+  "What E may be near the point, without functions with branches: one or, where branches meet,
+several; leaves forms-no-branch with nil where that is open."
+  (cond ((not (forms-kinked-p e)) (list e))
+        ((eq (caar e) '$piecewise) (forms-different (forms-pieces-met e at-point)))
+        (t (let ((choices (forms-combinations
+                           (mapcar (lambda (part) (forms-branches part at-point)) (cdr e)))))
+             (forms-different (loop for parts in choices
+                                    append (forms-branches-of e parts at-point)))))))
+
+(defun forms-different (branches)
+  (remove-duplicates branches :test #'alike1 :from-end t))
+
+(defun forms-combinations (lists)
+  (when (> (reduce #'* (mapcar #'length lists)) *forms-most-branches*)
+    (throw 'forms-no-branch nil))
+  (reduce (lambda (list tails)
+            (loop for e in list append (loop for tail in tails collect (cons e tail))))
+          lists :initial-value '(nil) :from-end t))
+
+(defun forms-branches-of (e parts at-point)
+  "Those of the function E of PARTS, which have no branches."
+  (flet ((sides () (forms-sides-of (car parts) at-point)))
+    (case (caar e)
+      (%signum (if (cdr (sides)) '(1 -1 0) (sides)))
+      (mabs (loop for side in (sides) collect (mul side (car parts))))
+      ($unit_step (loop for side in (sides) collect (if (eql 1 side) 1 0)))
+      ($max (forms-extremes '$neg parts at-point))
+      ($min (forms-extremes '$pos parts at-point))
+      (t (list (forms-with-parts e parts))))))
+
+(defun forms-sides-of (u at-point)
+  "(1) or (-1), the sign of U at the point, both where it is 0."
   (case ($algebra_sign (funcall at-point u))
-    ($pos 1)
-    ($neg -1)
-    ($zero (forms-no-slope e))
+    ($pos '(1))
+    ($neg '(-1))
+    ($zero '(1 -1))
     (t (throw 'forms-no-branch nil))))
 
-(defun forms-no-slope (e)
-  (core-error "~a has no derivative where its branches meet" (core-words (list e))))
+(defun forms-extremes (worse parts at-point)
+  "Those of PARTS that no other surpasses at the point: PART - OTHER has nowhere the sign WORSE."
+  (flet ((sign (part other)
+           (let ((sign ($algebra_sign (funcall at-point (sub part other)))))
+             (if (member sign '($pos $neg $zero)) sign '$unknown))))
+    (let ((left (remove-if (lambda (part)
+                             (some (lambda (other) (eq (sign part other) worse)) parts))
+                           parts)))
+      (loop for part in left
+            do (dolist (other left)
+                 (when (eq (sign part other) '$unknown) (throw 'forms-no-branch nil))))
+      left)))
 
-(defun forms-extreme (e parts at-point)
-  "The one of PARTS that is the largest, or smallest, at the point."
-  (let ((better (if (eq (caar e) '$max) '$pos '$neg)) (open nil))
-    (flet ((wins-p (part)
-             (loop for other in (remove part parts :test #'alike1)
-                   for sign = ($algebra_sign (funcall at-point (sub part other)))
-                   do (unless (member sign '($pos $neg $zero)) (setq open t))
-                   always (eq sign better))))
-      (cond ((find-if #'wins-p parts))
-            (open (throw 'forms-no-branch nil))
-            (t (forms-no-slope e))))))
+(defun forms-pieces-met (e at-point)
+  "The values of piecewise([condition, value], ..) up to the first whose condition surely holds."
+  (let ((met '()))
+    (loop for (nil condition value) in (cdr e)
+          do (let ((truth (forms-condition-near condition at-point)))
+               (unless (eq truth 'no)
+                 (setq met (append met (forms-branches value at-point))))
+               (when (eq truth 'yes) (return met)))
+          finally (throw 'forms-no-branch nil))))
 
-(defun forms-piece (e at-point)
-  "The value of piecewise([condition, value], ..) whose condition is the first that holds."
-  (loop for (nil condition value) in (cdr e)
-        when (forms-condition-holds-p e condition at-point) return (forms-branch value at-point)
-        finally (return (throw 'forms-no-branch nil))))
+(defun forms-condition-near (condition at-point)
+  "yes, no, or both where it holds on one side of the point."
+  (cond ((member condition '(t $otherwise)) 'yes)
+        ((or (atom condition) (not (member (caar condition) '(mgreaterp mgeqp mlessp mleqp))))
+         (throw 'forms-no-branch nil))
+        (t (let ((sides (forms-sides-of (sub (second condition) (third condition)) at-point))
+                 (holding (if (member (caar condition) '(mgreaterp mgeqp)) 1 -1)))
+             (cond ((cdr sides) 'both)
+                   ((eql (car sides) holding) 'yes)
+                   (t 'no))))))
 
-(defun forms-condition-holds-p (e condition at-point)
-  (cond ((member condition '(t $otherwise)) t)
-        ((atom condition) (throw 'forms-no-branch nil))
-        (t (let ((side (forms-side-of e (sub (second condition) (third condition)) at-point)))
-             (case (caar condition)
-               ((mgreaterp mgeqp) (= side 1))
-               ((mlessp mleqp) (= side -1))
-               (t (throw 'forms-no-branch nil)))))))
+(defun forms-branches-agree-p (branches names at-point)
+  "Whether all BRANCHES have one value and one derivative by each of NAMES at the point: then the
+function has these too, however the branches meet there."
+  (flet ((vanishes-p (e)
+           (equal (core-attempt (lambda () ($algebra_zerop (funcall at-point e)))) '(t))))
+    (loop for branch in (cdr branches)
+          for rise = (sub branch (car branches))
+          always (and (vanishes-p rise)
+                      (every (lambda (name) (vanishes-p ($diff rise name))) names)))))
+
+(defun forms-meeting-p (e at-point)
+  "Whether several branches of E meet at the point."
+  (and (cdr (forms-branches-or-nil e at-point)) t))
 
 (defun forms-kink-at (e at-point)
-  "A function in E that has no derivative at the point, or nil."
-  (cond ((atom e) nil)
+  "A function in E of which several branches meet at the point, or nil."
+  (cond ((not (forms-kinked-p e)) nil)
         ((some (lambda (part) (forms-kink-at part at-point)) (cdr e)))
-        ((and (member (caar e) *forms-kinked*)
-              (null (core-attempt (lambda ()
-                                    (catch 'forms-no-branch (forms-branch e at-point))))))
-         e)))
+        ((and (member (caar e) *forms-kinked*) (forms-meeting-p e at-point)) e)))
 
 (defun $forms_open_kink (e)
   "A function with branches whose derivative E still has as a noun: which branch holds is open."

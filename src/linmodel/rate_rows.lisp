@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/exchange" "algebra/rank" "linmodel/scene_records"))
+  (core-require "algebra/branch_slopes" "forms/exchange" "algebra/rank" "linmodel/scene_records"))
 
 (defun $linmodel_check_geometry (section key e)
   (let ((derivatives (forms-collect-derivatives e '())))
@@ -63,7 +63,7 @@
 
 (defun linmodel-slope (e x names)
   (cond ((eq e x) 1)
-        ((linmodel-named-p x names) ($diff e x))
+        ((linmodel-named-p x names) ($algebra_diff e x))
         (t 0)))
 
 (defun $linmodel_rate_row (e q)
