@@ -157,7 +157,8 @@
 
 (defun archive-written-out (e)
   "E with its definite sums and products carried out, and nouns for verbs, from the inside."
-  (cond ((loop for word in '(%sum %product $diff $integrate) never (archive-contains-p e word)) e)
+  (cond ((atom e) e) ; a name too, which may be diff
+        ((loop for word in '(%sum %product $diff $integrate) never (archive-contains-p e word)) e)
         ((archive-definite-sum-p e) (archive-sum-written-out e))
         ((archive-head-p e '$diff '$integrate) (archive-as-noun e))
         (t (archive-with-parts e (mapcar #'archive-written-out (cdr e))))))
