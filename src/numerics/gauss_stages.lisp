@@ -233,7 +233,8 @@ every second sweep only: one without improvement ends it at the last place, two 
 
 (defun numerics-gauss-settle (run moment state guessed)
   "The increments from a guess, where there is one that leads to them; nil, or what went wrong."
-  (numerics-gauss-set-moments run moment)
+  (when (numerics-problem-timed (numerics-gauss-run-problem run))
+    (numerics-gauss-set-moments run moment))
   (let ((fault (or (not guessed) (numerics-gauss-iterate run state))))
     (when (and fault guessed)
       (incf (numerics-counts-rejected (numerics-gauss-run-counts run))))
