@@ -43,6 +43,12 @@ for pair in ["int.c" = c, "sin.c" = c, "end.f90" = fortran, "sin.f90" = fortran,
 test("chain", EquationProgram(chain, save = false), flatten([args(first(equations)), second(equations)]), place)$
 END
 timeout -k 5 300 "$here/../tools/maxima" --very-quiet -b make.mac >log 2>&1 </dev/null; [ -s chain.y ] || cat log
+# a name with a folder, relative to the working one
+mkdir made
+"$here/../tools/maxima" --very-quiet --batch-string='load("linmodel")$ ExportProgram(EquationProgram("spherical_pendulum.txt", save = false), "made/pendulum.c", language = c)$' \
+  >made.log 2>&1 </dev/null
+check "a file in a folder" "$(find made -type f)" "made/pendulum.c"
+
 check "values" "$(wc -l <forces.y) $(wc -l <chain.y)" "19 56"
 
 # agree FILE EXPECTED: how many of its lines agree with the expected ones
