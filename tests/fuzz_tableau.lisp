@@ -418,7 +418,7 @@ capacitor, a loop of source and capacitor, a cut of source and inductor."
   '("pieces" "joined to nothing" "loop of voltage sources" "cut of current sources"
     "windings form a loop" "lie in parts" "in a ratio"))
 
-(defparameter *fuzz-singular* '("are not determined" "contradict each other"))
+(defparameter *fuzz-singular* '("are not determined" "is not determined" "contradict each other"))
 
 (defun fuzz-any-in-p (words text) (some (lambda (word) (search word text)) words))
 

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/nouns"))
+  (core-require "algebra/impulses" "algebra/nouns"))
 
 (defparameter *algebra-branched* '($max $min %signum $unit_step $piecewise))
 
@@ -19,7 +19,7 @@
 
 (defun $algebra_diff (e &rest variables)
   "diff(E, x, n, ..), functions with branches differentiated too."
-  (let ((slope (apply #'$diff e variables)))
+  (let ((slope (apply #'$diff (if *algebra-impulses* (algebra-with-signs e) e) variables)))
     (if (algebra-branched-p e) (algebra-branches-carried slope) slope)))
 
 (defun algebra-branches-carried (e)
@@ -65,7 +65,8 @@
 (defun algebra-branch-slope (e x)
   "The derivative of E, a function with branches, by the name X, away from its corners."
   (ecase (caar e)
-    ((%signum $unit_step) 0)
+    (%signum (mul 2 (algebra-impulse-at (second e)) ($algebra_diff (second e) x)))
+    ($unit_step (mul (algebra-impulse-at (second e)) ($algebra_diff (second e) x)))
     ($max (algebra-extreme-slope '$max 1 (algebra-moving-first (cdr e) x) x))
     ($min (algebra-extreme-slope '$min -1 (algebra-moving-first (cdr e) x) x))
     ($piecewise (algebra-slope-of-pieces (cdr e) x))))

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/branch_slopes" "algebra/size" "algebra/program_branches"
+  (core-require "algebra/branch_slopes" "algebra/impulses" "algebra/size" "algebra/program_branches"
                 "algebra/program_nodes"))
 
 ;;; From expressions.
@@ -55,6 +55,7 @@
       ($max (algebra-converted-extreme (mapcar element (cdr e)) 1))
       ($min (algebra-converted-extreme (mapcar element (cdr e)) -1))
       ($unit_step (algebra-program-positive (part)))
+      (algebra-impulse (algebra-program-function :impulse (part)))
       ($piecewise (algebra-converted-pieces e element))
       (%derivative (algebra-converted-derivative e element))
       (t (algebra-converted-function e element)))))
@@ -90,9 +91,9 @@
       (algebra-refuse-program e)))
 
 (defun algebra-converted-product (factors element)
-  "Factors with negative exponents go below one line."
+  "Factors with negative exponents go below one line; u/|u| is the sign of u."
   (let ((above 1) (below 1))
-    (dolist (factor factors)
+    (dolist (factor (algebra-factors-with-signs factors))
       (if (algebra-below-line-p factor)
           (setq below (algebra-program-multiply
                        below (algebra-converted-power (second factor) (mul -1 (third factor))

@@ -8,6 +8,9 @@
 
 (in-package :maxima)
 
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "algebra/impulses"))
+
 (defstruct algebra-node operation left right index)
 
 (defstruct algebra-program
@@ -173,7 +176,9 @@
 (defun algebra-program-function (operation x)
   "The function OPERATION of one argument X, a sign drawn outwards where it is odd or even."
   (let ((row (algebra-function-of operation)))
-    (cond ((and (eql x 0) (algebra-function-at-zero row)))
+    (cond ((and (functionp *algebra-impulses*) (member operation '(:impulse :sign))
+                (funcall *algebra-impulses* operation x)))
+          ((and (eql x 0) (algebra-function-at-zero row)))
           ((and (algebra-function-parity row) (algebra-opposite x))
            (let ((node (algebra-program-function operation (algebra-opposite x))))
              (if (eq (algebra-function-parity row) :odd) (algebra-program-negate node) node)))
@@ -209,6 +214,9 @@
 
 (defun algebra-inverse-root (x)
   (algebra-program-divide 1 (algebra-program-root x)))
+
+(defun algebra-twice-impulse (x)
+  (if *algebra-impulses* (algebra-program-multiply 2 (algebra-program-function :impulse x)) 0))
 
 (defun algebra-power-slopes (node x y)
   (list (algebra-program-multiply
@@ -251,8 +259,13 @@
                (algebra-slope (algebra-program-function :hyperbolic-sine x)))
   (algebra-row :hyperbolic-tangent '%tanh #'cl:tanh 0 :odd
                (algebra-slope (algebra-one-minus-square node)))
-  (algebra-row :absolute 'mabs #'cl:abs 0 :even (algebra-slope (algebra-program-function :sign x)))
-  (algebra-row :sign '%signum #'cl:signum 0 :odd (algebra-slope 0))
+  (algebra-row :absolute 'mabs #'cl:abs 0 :even    ; the square of a sign is 1 beside its jump
+               (algebra-slope (if (algebra-operation-p :sign x)
+                                  0
+                                  (algebra-program-function :sign x))))
+  (algebra-row :sign '%signum #'cl:signum 0 :odd (algebra-slope (algebra-twice-impulse x)))
+  (algebra-row :impulse nil (constantly 0d0) nil :even
+               (algebra-slope (algebra-program-function :impulse x)))
   (algebra-row :power nil #'cl:expt nil nil #'algebra-power-slopes)
   (algebra-row :polar-angle nil #'cl:atan nil nil #'algebra-polar-slopes)))
 

@@ -7,7 +7,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_from_expressions"
                 "algebra/program_nodes" "circuits/elements" "circuits/rates_balance"
-                "circuits/rates_by_branches" "circuits/rates_judge" "forms/rates"))
+                "circuits/rates_by_branches" "circuits/rates_judge" "forms/impulses"
+                "forms/rates"))
 
 ;;; What stores energy: branches of one sort, independent ones first. A shift is (row . rate): how
 ;;; the state of a branch follows from the independent ones, B, and what sources add to its rate.
@@ -121,4 +122,4 @@ dependent); RIGHT gives what Kirchhoff's laws leave for a branch."
 ;;; For Maxima.
 
 (defun $circuits_rates_of_network (network)
-  (with-algebra-program (circuits-rates network)))
+  (with-algebra-program (forms-with-impulses (circuits-rates network))))

@@ -9,7 +9,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_exchange"
                 "algebra/program_from_expressions" "algebra/program_nodes" "forms/actions"
-                "forms/dynamics" "forms/equations_as_program" "forms/judge" "forms/momenta"
+                "forms/dynamics" "forms/equations_as_program" "forms/impulses" "forms/judge" "forms/momenta"
                 "forms/momenta_judge" "forms/program_judge" "forms/rates"
                 "forms/rates_of_momenta" "forms/rates_of_motion"))
 
@@ -130,4 +130,5 @@ coordinates to be left out; ROTORS: coordinates that are left out in any form."
 
 (defun $forms_rates_of_task (system task wanted)
   (with-algebra-program
-    (forms-rates-in-form (forms-dynamics-of-function system (forms-read-task task)) wanted)))
+    (forms-with-impulses
+      (forms-rates-in-form (forms-dynamics-of-function system (forms-read-task task)) wanted))))

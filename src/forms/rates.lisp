@@ -16,10 +16,11 @@ OUTPUTS ((name . value) ..) have X as `rates'. MASS: nil for the identity, else 
 factorisation, what is divided by, and the size that it is of where it is not small. SPLIT: nil, or
 the number n where x = (q, v), q' = v. CYCLIC: coordinates whose velocities are the output
 `quadratures'; MOMENTA: those of the states that are parameters in other forms. INERTIA: elements
-that depend on states that are no velocities, or on the time, where M does. INTEGRALS: a list of
-forms-first-integral; UNTOLD: what is not given of such, sentences."
+that depend on states that are no velocities, or on the time, where M does. IMPULSES: see
+impulses.lisp. INTEGRALS: a list of forms-first-integral; UNTOLD: what is not given of such,
+sentences."
   program states pairs outputs (mass nil) (guards nil) (angles nil) (split nil) (cyclic nil)
-  (momenta nil) (inertia nil) (integrals nil) (untold nil))
+  (momenta nil) (inertia nil) (impulses nil) (integrals nil) (untold nil))
 
 (defun forms-first-integral (name value size &optional (power 0))
   "VALUE plus the integral of POWER over the time is constant along every motion; VALUE is a sum,
@@ -51,7 +52,8 @@ perhaps a small one, of parts as large as SIZE. A list, for what is done to all 
           (loop for row in (forms-rates-mass rates) append (mapcar #'cdr row))
           (loop for (nil pivot . whole) in (forms-rates-guards rates)
                 append (list pivot whole))
-          (forms-rates-inertia rates)))
+          (forms-rates-inertia rates)
+          (apply #'append (forms-rates-impulses rates))))
 
 (defun forms-right-sides (rates)
   "The elements of X."
@@ -75,6 +77,8 @@ perhaps a small one, of parts as large as SIZE. A list, for what is done to all 
             (forms-rates-guards copy) (loop for (name pivot . whole) in (forms-rates-guards rates)
                                             collect (list* name (next pivot) (next whole)))
             (forms-rates-inertia copy) (mapcar #'next (forms-rates-inertia rates))
+            (forms-rates-impulses copy) (loop for lost in (forms-rates-impulses rates)
+                                              collect (mapcar #'next lost))
             (forms-rates-integrals copy) (forms-exchanged-integrals rates exchange)))
     copy))
 

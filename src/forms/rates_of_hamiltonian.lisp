@@ -4,7 +4,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/momenta_judge"
+  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/impulses"
+                "forms/momenta_judge"
                 "forms/program_judge" "forms/rates_of_momenta"))
 
 (defun $forms_rates_of_hamiltonian (function forces names task)
@@ -12,7 +13,9 @@
   (with-algebra-program
     (let ((task (forms-read-task task)) (names (cdr names)))
       (multiple-value-bind (rates motion)
-          (forms-rates-of-hamiltonian (algebra-program-element function)
-                                      (mapcar #'algebra-program-element (cdr forces)) names task)
+          (let ((*algebra-impulses* t))
+            (forms-rates-of-hamiltonian (algebra-program-element function)
+                                        (mapcar #'algebra-program-element (cdr forces))
+                                        names task))
         (forms-check-canonical function (cdr forces) names task motion)
-        rates))))
+        (forms-impulses-apart rates)))))

@@ -186,9 +186,9 @@
 (core-middle "rates" '("equations") "forms/rates_of_systems" "forms_equation_rates"
   "equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) *forms-given-integrals*
   '("level" ((mlist simp))))
-(core-middle "rates" '("poisson") "forms/rates_of_systems" "forms_equation_rates"
+(core-middle "rates" '("poisson") "forms/rates_of_systems" "forms_poisson_rates"
   "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) "poisson_integrals"
-  '("level" ((mlist simp))))
+  '("level" ((mlist simp))) "hamiltonian" "structure_matrix")
 
 ;;; Poisson
 

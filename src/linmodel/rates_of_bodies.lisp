@@ -7,10 +7,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/program_outputs" "algebra/program_derivative"
+  (core-require "linmodel/program_outputs" "algebra/branch_slopes" "algebra/program_derivative"
                 "algebra/program_from_expressions" "algebra/program_nodes" "forms/dynamics"
-                "forms/cyclic_momenta" "forms/equations_as_program" "forms/program_judge"
-                "forms/rates" "linmodel/composite_bodies"))
+                "forms/cyclic_momenta" "forms/equations_as_program" "forms/impulses"
+                "forms/program_judge"
+                "forms/rates" "linmodel/composite_bodies" "linmodel/rate_rows" "linmodel/scene_records"))
 
 (defun linmodel-dynamics (scene actions task)
   "ACTIONS: [U, R, [Q_1, ..]] beside the field."
@@ -40,15 +41,44 @@
        :damping (algebra-program-gradient (algebra-program-element dissipation) velocities)
        :forces (mapcar #'algebra-program-element (cdr forces))))))
 
+;;; Impulses: where a joint or an angle jumps the rows of its rate have traces of that.
+
+(defun linmodel-with-impulses (scene)
+  "SCENE with the rows of links derived anew where these have functions with branches."
+  (let ((q (linmodel-scene-coordinates scene)) (new (copy-linmodel-scene scene)))
+    (setf (linmodel-scene-links new)
+          (cons '(mlist simp)
+                (loop for link in (cdr (linmodel-scene-links scene))
+                      collect (linmodel-link-with-impulses link q))))
+    new))
+
+(defun linmodel-link-with-impulses (link q)
+  (let ((new (copy-linmodel-link link)))
+    (flet ((row (e row) (if (algebra-branched-p e) ($linmodel_rate_row e q) row)))
+      (setf (linmodel-link-rows new)
+            (cons '(mlist simp) (mapcar #'row (cdr (linmodel-link-joint link))
+                                        (cdr (linmodel-link-rows link))))
+            (linmodel-link-turns new)
+            (cons '(mlist simp)
+                  (loop for turn in (cdr (linmodel-link-turns link))
+                        for copy = (copy-linmodel-turn turn)
+                        do (setf (linmodel-turn-row copy)
+                                 (row (linmodel-turn-angle turn) (linmodel-turn-row turn)))
+                        collect copy))))
+    new))
+
 ;;; For Maxima.
 
 (defun $linmodel_tree_rates (scene actions task angles wanted)
   "The rates in the form WANTED; ACTIONS: [U, R, [Q_1, ..]] beside the field; ANGLES: coordinates
 that turn bodies."
   (with-algebra-program
-    (linmodel-with-angles angles
-                          (forms-rates-in-form
-                           (linmodel-dynamics scene actions (forms-read-task task)) wanted))))
+    (linmodel-with-angles
+     angles
+     (forms-with-impulses
+       (forms-rates-in-form
+        (linmodel-dynamics (linmodel-with-impulses scene) actions (forms-read-task task))
+        wanted)))))
 
 (defun linmodel-with-angles (angles rates)
   (setf (forms-rates-angles rates)

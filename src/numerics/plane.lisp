@@ -8,7 +8,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_nodes" "forms/dynamics" "forms/rates"
-                "numerics/native" "numerics/problem" "numerics/program" "numerics/rate_program"
+                "numerics/element_words" "numerics/impulses" "numerics/native" "numerics/problem"
+                "numerics/program" "numerics/rate_program"
                 "numerics/rates_problem" "numerics/routine" "numerics/run" "numerics/run_options"))
 
 (defstruct numerics-axis
@@ -207,6 +208,7 @@ equations may name velocities and coordinates that are none of the states here."
          (elements (algebra-exchanged (numerics-rates-of rates (append names others))
                                       (algebra-exchange-by (numerics-held-elements held))))
          (plane (subseq elements 0 2)))
+    (numerics-warn-of-lost-impulses rates axes held)
     (make-numerics-plane
      :axes axes :alone (null (cddr (forms-rates-states rates)))
      :held (remove *numerics-any-value* held :key #'cdr)
@@ -215,6 +217,26 @@ equations may name velocities and coordinates that are none of the states here."
                    unless (or (eql element 0) (eq value *numerics-any-value*)) collect name)
      :forwards (numerics-plane-problem names plane)
      :backwards (numerics-plane-problem names (mapcar #'algebra-program-negate plane)))))
+
+(defun numerics-warn-of-lost-impulses (rates axes held)
+  "A warning where trajectories cross a jump of what the equations of RATES are derivatives of."
+  (let* ((exchange (algebra-exchange-by (numerics-held-elements held)))
+         (program (make-numerics-program :algebra *algebra-program*
+                                         :names (mapcar #'numerics-axis-name axes)))
+         (impulses (numerics-new-impulses
+                    (loop for lost in (forms-rates-impulses rates)
+                          collect (algebra-exchanged lost exchange))
+                    program))
+         (u (and impulses
+                 (numerics-with-masked-traps
+                   (numerics-impulse-in-window
+                    impulses (mapcar #'numerics-axis-low axes)
+                    (mapcar (lambda (axis) (+ (numerics-axis-low axis) (numerics-axis-width axis)))
+                            axes))))))
+    (when u
+      (core-warn "where ~a = 0 a function that the equations are derivatives of jumps; the curves ~
+                  do not show the impulse that a motion gets there"
+                 (or (numerics-element-words u) "the argument of a sign")))))
 
 ;;; Values; inside masked traps
 

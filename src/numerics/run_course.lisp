@@ -7,7 +7,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "forms/rates" "numerics/back_to_constraints" "numerics/dead_points"
                 "numerics/decimals" "numerics/drifts" "numerics/element_words" "numerics/events"
-                "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
+                "numerics/impulses" "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
                 "numerics/problem" "numerics/routine" "numerics/run" "numerics/run_options"
                 "numerics/switches"))
 
@@ -120,6 +120,14 @@ steps; for others a part of an observer, or nil."
           (t (numerics-switch-part
               switches (lambda (trouble) (setf (numerics-simulation-fault run) trouble)))))))
 
+(defun numerics-run-impulse-part (run)
+  (let ((impulses (numerics-new-impulses
+                    (forms-rates-impulses (numerics-simulation-rates run))
+                    (numerics-simulation-program run))))
+    (and impulses
+         (numerics-impulse-part
+          impulses (lambda (trouble) (setf (numerics-simulation-fault run) trouble))))))
+
 (defun numerics-run-observer (run)
   (numerics-observer
    (remove nil
@@ -129,6 +137,7 @@ steps; for others a part of an observer, or nil."
                  (and (numerics-simulation-guards run) (numerics-guard-part run))
                  (numerics-run-pole-part run)
                  (numerics-run-switch-part run)
+                 (numerics-run-impulse-part run)
                  (and (numerics-simulation-events run)
                       (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
                  (and (numerics-simulation-drifts run)

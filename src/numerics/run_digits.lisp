@@ -8,7 +8,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "algebra/size" "core/bigfloats" "forms/rates"
-                "numerics/big_values" "numerics/decimals" "numerics/native" "numerics/problem"
+                "numerics/big_values" "numerics/decimals" "numerics/impulses" "numerics/native"
+                "numerics/problem"
                 "numerics/program" "numerics/run" "numerics/run_integrals"
                 "numerics/run_options" "numerics/run_report" "numerics/taylor"))
 
@@ -35,6 +36,7 @@
 (defun numerics-long-rows (run start span began)
   "The rows of RUN from START, exact values, over SPAN, as a Maxima list; the derivation of RUN
 began at BEGAN."
+  (numerics-refuse-impulses (numerics-simulation-rates run))
   (let* ((wishes (numerics-simulation-wishes run)) (digits (numerics-wishes-digits wishes))
          (times (numerics-exact-times (numerics-wishes-points wishes) (numerics-read-span span))))
     (numerics-check-exact-start run start (first times) digits)

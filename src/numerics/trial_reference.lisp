@@ -25,11 +25,20 @@
       (numerics-with-masked-traps
         (numerics-reference-of
          (numerics-simulation-problem run) (numerics-simulation-controls run) start times
-         :most-steps (if (numerics-series-begin-p run start (first times))
+         :most-steps (if (and (numerics-series-begin-p run start (first times))
+                              (null (forms-rates-impulses (numerics-simulation-rates run))))
                          *numerics-most-series-steps*
                          0)
-         :projection (and (numerics-simulation-constraints run)
-                          (numerics-projection-part (numerics-simulation-constraints run))))))))
+         :projection (numerics-reference-part run))))))
+
+(defun numerics-reference-part (run)
+  "The part of an observer that brings states of RUN back to constraints, and ends it where an
+impulse is lost; nil where there is nothing to do."
+  (let ((parts (remove nil (list (and (numerics-simulation-constraints run)
+                                      (numerics-projection-part
+                                       (numerics-simulation-constraints run)))
+                                 (numerics-run-impulse-part run)))))
+    (and parts (numerics-observer parts))))
 
 (defun $numerics_reference_solution (trial)
   "Record: method, digits, errors of each state, rows [t, x1, ..]; one that its time did not suffice
