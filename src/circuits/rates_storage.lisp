@@ -7,7 +7,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_from_expressions"
                 "algebra/program_nodes" "circuits/elements" "circuits/rates_balance"
-                "circuits/rates_by_branches" "circuits/rates_judge" "forms/impulses"
+                "circuits/rates_by_branches" "circuits/rates_judge" "forms/rates_impulses"
                 "forms/rates"))
 
 ;;; What stores energy: branches of one sort, independent ones first. A shift is (row . rate): how

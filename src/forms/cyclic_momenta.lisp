@@ -9,8 +9,8 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_derivative" "algebra/program_exchange"
                 "algebra/program_from_expressions" "algebra/program_nodes" "forms/actions"
-                "forms/dynamics" "forms/equations_as_program" "forms/impulses" "forms/judge" "forms/momenta"
-                "forms/momenta_judge" "forms/program_judge" "forms/rates"
+                "forms/dynamics" "forms/equations_as_program" "forms/rates_impulses" "forms/judge"
+                "forms/momenta" "forms/momenta_judge" "forms/program_judge" "forms/rates"
                 "forms/rates_of_momenta" "forms/rates_of_motion"))
 
 (core-record forms-wanted-form

@@ -188,10 +188,10 @@ there are none."
 (defun forms-sign-value (argument x)
   "The sign of ARGUMENT, whose value is X."
   (if (and *forms-signs-are-open* (algebra-node-p argument))
-      (forms-open-value "sign" argument)
+      (forms-open-side "sign" argument)
       (ash (signum x) forms-digits)))
 
-(defun forms-open-value (word argument)
+(defun forms-open-side (word argument)
   "The number that the function WORD of ARGUMENT, a node, has while signs are open."
   (forms-random-value (intern (format nil "~a~d" word (algebra-node-index argument)) :maxima)))
 
@@ -227,5 +227,7 @@ there are none."
         (:absolute (forms-fixed-times (forms-sign-value (algebra-node-left node) (funcall x))
                                       (funcall x)))
         (:sign (forms-sign-value (algebra-node-left node) (funcall x)))
-        (:impulse (if *forms-signs-are-open* (forms-open-value "impulse" (algebra-node-left node)) 0))
+        (:impulse (if *forms-signs-are-open*
+                      (forms-open-side "impulse" (algebra-node-left node))
+                      0))
         (t (value (algebra-function-operator (algebra-function-of operation)) (funcall x)))))))

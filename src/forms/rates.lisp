@@ -17,7 +17,7 @@ factorisation, what is divided by, and the size that it is of where it is not sm
 the number n where x = (q, v), q' = v. CYCLIC: coordinates whose velocities are the output
 `quadratures'; MOMENTA: those of the states that are parameters in other forms. INERTIA: elements
 that depend on states that are no velocities, or on the time, where M does. IMPULSES: see
-impulses.lisp. INTEGRALS: a list of forms-first-integral; UNTOLD: what is not given of such,
+rates_impulses.lisp. INTEGRALS: a list of forms-first-integral; UNTOLD: what is not given of such,
 sentences."
   program states pairs outputs (mass nil) (guards nil) (angles nil) (split nil) (cyclic nil)
   (momenta nil) (inertia nil) (impulses nil) (integrals nil) (untold nil))

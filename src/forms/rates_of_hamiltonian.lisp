@@ -4,9 +4,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/impulses"
-                "forms/momenta_judge"
-                "forms/program_judge" "forms/rates_of_momenta"))
+  (core-require "algebra/impulses" "algebra/program_from_expressions" "algebra/program_nodes"
+                "forms/rates_impulses" "forms/momenta_judge" "forms/program_judge"
+                "forms/rates_of_momenta"))
 
 (defun $forms_rates_of_hamiltonian (function forces names task)
   "FUNCTION is H, FORCES are [Q_1, ..], NAMES those of the momenta."

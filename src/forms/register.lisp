@@ -186,9 +186,12 @@
 (core-middle "rates" '("equations") "forms/rates_of_systems" "forms_equation_rates"
   "equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) *forms-given-integrals*
   '("level" ((mlist simp))))
-(core-middle "rates" '("poisson") "forms/rates_of_systems" "forms_poisson_rates"
+(core-middle "rates_beside_impulses" '("poisson") "forms/rates_of_systems" "forms_equation_rates"
   "state_equations" '("laws" ((mlist simp))) '("variables" ((mlist simp))) "poisson_integrals"
-  '("level" ((mlist simp))) "hamiltonian" "structure_matrix")
+  '("level" ((mlist simp))))
+(core-rule "rates" '("poisson") "forms/rates_of_systems" "forms_poisson_rates"
+  "rates_beside_impulses" "hamiltonian" "structure_matrix" '("laws" ((mlist simp)))
+  '("variables" ((mlist simp))))
 
 ;;; Poisson
 

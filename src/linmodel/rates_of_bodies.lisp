@@ -7,11 +7,12 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "linmodel/program_outputs" "algebra/branch_slopes" "algebra/program_derivative"
-                "algebra/program_from_expressions" "algebra/program_nodes" "forms/dynamics"
-                "forms/cyclic_momenta" "forms/equations_as_program" "forms/impulses"
-                "forms/program_judge"
-                "forms/rates" "linmodel/composite_bodies" "linmodel/rate_rows" "linmodel/scene_records"))
+  (core-require "algebra/branch_slopes" "algebra/program_derivative"
+                "algebra/program_from_expressions" "algebra/program_nodes"
+                "forms/cyclic_momenta" "forms/dynamics" "forms/equations_as_program"
+                "forms/rates_impulses" "forms/program_judge" "forms/rates"
+                "linmodel/composite_bodies" "linmodel/program_outputs" "linmodel/rate_rows"
+                "linmodel/scene_records"))
 
 (defun linmodel-dynamics (scene actions task)
   "ACTIONS: [U, R, [Q_1, ..]] beside the field."

@@ -7,10 +7,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_exchange" "algebra/program_nodes" "forms/dynamics" "forms/rates"
-                "numerics/element_words" "numerics/impulses" "numerics/native" "numerics/problem"
-                "numerics/program" "numerics/rate_program"
-                "numerics/rates_problem" "numerics/routine" "numerics/run" "numerics/run_options"))
+  (core-require "algebra/program_exchange" "algebra/program_nodes" "forms/dynamics"
+                "forms/rates" "numerics/element_words" "numerics/lost_impulses" "numerics/native"
+                "numerics/problem" "numerics/program" "numerics/rate_program"
+                "numerics/rates_problem" "numerics/routine" "numerics/run"
+                "numerics/run_options"))
 
 (defstruct numerics-axis
   name                            ; the state

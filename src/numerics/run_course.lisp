@@ -6,10 +6,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "forms/rates" "numerics/back_to_constraints" "numerics/dead_points"
-                "numerics/decimals" "numerics/drifts" "numerics/element_words" "numerics/events"
-                "numerics/impulses" "numerics/jacobian" "numerics/native" "numerics/observers" "numerics/poles"
-                "numerics/problem" "numerics/routine" "numerics/run" "numerics/run_options"
-                "numerics/switches"))
+                "numerics/decimals" "numerics/drifts" "numerics/element_words"
+                "numerics/events" "numerics/lost_impulses" "numerics/jacobian" "numerics/native"
+                "numerics/observers" "numerics/poles" "numerics/problem" "numerics/routine"
+                "numerics/run" "numerics/run_options" "numerics/switches"))
 
 ;;; Methods
 

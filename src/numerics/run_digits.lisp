@@ -8,9 +8,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "algebra/size" "core/bigfloats" "forms/rates"
-                "numerics/big_values" "numerics/decimals" "numerics/impulses" "numerics/native"
-                "numerics/problem"
-                "numerics/program" "numerics/run" "numerics/run_integrals"
+                "numerics/big_values" "numerics/decimals" "numerics/lost_impulses" "numerics/native"
+                "numerics/problem" "numerics/program" "numerics/run" "numerics/run_integrals"
                 "numerics/run_options" "numerics/run_report" "numerics/taylor"))
 
 (defparameter *numerics-most-digits* 1000)

@@ -6,10 +6,11 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_record" "numerics/automatic" "numerics/back_to_constraints"
-                "numerics/conditioning" "numerics/decimals" "numerics/native"
-                "numerics/problem" "numerics/program" "numerics/reference" "numerics/run"
-                "numerics/run_course" "numerics/run_digits" "numerics/trial"))
+  (core-require "algebra/program_record" "forms/rates" "numerics/automatic"
+                "numerics/back_to_constraints" "numerics/conditioning" "numerics/decimals"
+                "numerics/native" "numerics/observers" "numerics/problem" "numerics/program"
+                "numerics/reference" "numerics/run" "numerics/run_course" "numerics/run_digits"
+                "numerics/trial"))
 
 (defun numerics-series-begin-p (run start time)
   "Whether START holds the constraints of RUN to the digits of series."

@@ -1,8 +1,8 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Impulses that the right-hand side of a run does not show (forms/impulses.lisp): the run ends
-;;; where the argument of a sign that was differentiated leaves its side, unless what stood at the
-;;; impulse vanishes there, as x^2 does where x^2*unit_step(x) begins. See numerics-impulse-part
-;;; first.
+;;; Impulses that the right-hand side of a run does not show (forms/rates_impulses.lisp): the run
+;;; ends where the argument of a sign that was differentiated leaves its side, unless what stood at
+;;; the impulse vanishes there, as x^2 does where x^2*unit_step(x) begins. See
+;;; numerics-impulse-part first.
 
 (in-package :maxima)
 

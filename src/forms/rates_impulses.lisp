@@ -9,9 +9,10 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/branch_slopes" "algebra/program_derivative" "algebra/program_exchange" "algebra/program_from_expressions"
+  (core-require "algebra/branch_slopes" "algebra/impulses" "algebra/program_derivative"
+                "algebra/program_exchange" "algebra/program_from_expressions"
                 "algebra/program_nodes" "algebra/program_record" "forms/equations_as_program"
-                "forms/program_judge" "forms/rates"))
+                "forms/program_judge" "forms/rates" "forms/value"))
 
 (defmacro forms-with-impulses (&body body)
   "The rates that BODY gives, without impulses, these beside them."
@@ -73,14 +74,18 @@ do not."
 
 (defun $forms_rates_with_impulses (rates function bracket variables)
   "RATES of x' = J dH/dx, VARIABLES x, with the impulses of the FUNCTION H; BRACKET is J."
-  (when (algebra-branched-p function)
-    (let* ((*algebra-program* (forms-rates-program rates))
-           (slopes (let ((*algebra-impulses* t))
-                     (algebra-program-gradient (algebra-program-element function)
-                                               (mapcar #'algebra-program-input (cdr variables)))))
-           (elements (loop for row in (cdr bracket)
-                           collect (forms-program-product
-                                    (mapcar #'algebra-program-element (cdr row)) slopes))))
-      (setf (forms-rates-impulses rates)
-            (forms-impulses-in elements (forms-impulse-arguments elements)))))
-  rates)
+  (if (algebra-branched-p function)
+      (forms-rates-with-slopes (copy-forms-rates rates) function bracket variables)
+      rates))
+
+(defun forms-rates-with-slopes (rates function bracket variables)
+  (let* ((*algebra-program* (forms-rates-program rates))
+         (slopes (let ((*algebra-impulses* t))
+                   (algebra-program-gradient (algebra-program-element function)
+                                             (mapcar #'algebra-program-input (cdr variables)))))
+         (elements (loop for row in (cdr bracket)
+                         collect (forms-program-product
+                                  (mapcar #'algebra-program-element (cdr row)) slopes))))
+    (setf (forms-rates-impulses rates)
+          (forms-impulses-in elements (forms-impulse-arguments elements)))
+    rates))
