@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 980923284 141215
+;;; Made by tools/doc; checksum of doc/*.texi: 4195940022 141519
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -65,11 +65,11 @@
 ("LinearIntegrals" . ("dynarch.info" 109900 1127 "Definitions for Analysis"))
 ("QuadraticIntegrals" . ("dynarch.info" 111028 815 "Definitions for Analysis"))
 ("PolynomialIntegrals" . ("dynarch.info" 111844 2023 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 114134 6771 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 120906 3906 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 124813 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 126776 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 131494 3374 "Definitions for Numerics"))
+("Simulate" . ("dynarch.info" 114134 7082 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 121217 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 125124 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 127087 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 131805 3374 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 844 930))
@@ -79,7 +79,7 @@
 ("Definitions for LinModel" . ("dynarch.info" 8887 30524))
 ("Definitions for Circuits" . ("dynarch.info" 39543 23755))
 ("Definitions for Analysis" . ("dynarch.info" 63430 50437))
-("Definitions for Numerics" . ("dynarch.info" 113990 20878))
-("Systems by name" . ("dynarch.info" 134994 8986))
+("Definitions for Numerics" . ("dynarch.info" 113990 21189))
+("Systems by name" . ("dynarch.info" 135305 8986))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))
