@@ -65,7 +65,7 @@ that cannot be made bounds all others."
 
 (defun numerics-pilot-length (span step)
   "After how many steps a pilot run ends: one there costs as much as four of the run."
-  (max 32 (min 2000 (/ (abs span) step 6))))
+  (max 32 (min 1000 (/ (abs span) step 6))))
 
 (defun numerics-pilot-fit (pilot)
   "The factor by which the step of PILOT may be longer, between 1/8 and 4; nil where it cannot be
