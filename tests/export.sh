@@ -48,6 +48,12 @@ mkdir made
 "$here/../tools/maxima" --very-quiet --batch-string='load("linmodel")$ ExportProgram(EquationProgram("spherical_pendulum.txt", save = false), "made/pendulum.c", language = c)$' \
   >made.log 2>&1 </dev/null
 check "a file in a folder" "$(find made -type f)" "made/pendulum.c"
+if [ -n "${DYNARCH_GCL-}" ]; then
+  rm made/pendulum.c
+  MAXIMA=$DYNARCH_GCL MAXIMA_LISP=gcl "$here/../tools/maxima" --very-quiet --batch-string='load("linmodel")$
+    ExportProgram(EquationProgram("spherical_pendulum.txt", save = false), "made/pendulum.c", language = c)$' >made.log 2>&1 </dev/null
+  check "a file in a folder on GCL" "$(find made -type f)" "made/pendulum.c"
+fi
 
 check "values" "$(wc -l <forces.y) $(wc -l <chain.y)" "19 56"
 

@@ -28,11 +28,12 @@
      (open (core-pathname draft) :direction :output :if-exists :supersede :element-type type))))
 
 (defun algebra-rename-file (draft file)
-  "DRAFT becomes FILE; SBCL takes a relative name from the folder of the draft."
+  "DRAFT, in the same folder, becomes FILE; a relative name is taken from the folder of the draft."
   #+sbcl (rename-file (core-pathname draft)
                       (merge-pathnames (merge-pathnames (core-pathname file))
                                        (make-pathname :type :unspecific)))
-  #-sbcl (rename-file draft (merge-pathnames file (make-pathname :type :unspecific))))
+  #-sbcl (rename-file draft (merge-pathnames (subseq file (algebra-folder-length file))
+                                             (make-pathname :type :unspecific))))
 
 (defun algebra-draft-of (file) (format nil "~a.~a.draft" file (core-process-id)))
 

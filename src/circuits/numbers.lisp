@@ -44,13 +44,21 @@
 
 (defun circuits-in-named-order (circuit numbers)
   "NUMBERS of branches with states, those first that the key `states' names, in its order."
-  (let ((named (cdr (circuits-circuit-named_states circuit))))
-    (if (null named)
-        numbers
-        (let ((branches (coerce (cdr (circuits-circuit-branches circuit)) 'simple-vector))
-              (places (make-hash-table :test #'eq)))
-          (loop for name in named for place from 0 do (setf (gethash name places) place))
-          (stable-sort (copy-list numbers) #'<
-                       :key (lambda (number)
-                              (gethash (circuits-branch-state (svref branches (1- number)))
-                                       places (length named))))))))
+  (let ((named (cdr (circuits-circuit-named_states circuit)))
+        (branches (coerce (cdr (circuits-circuit-branches circuit)) 'simple-vector)))
+    (if named
+        (circuits-by-places numbers branches (circuits-places-of named))
+        numbers)))
+
+(defun circuits-places-of (names)
+  (let ((places (make-hash-table :test #'eq)) (place 0))
+    (dolist (name names places)
+      (setf (gethash name places) place)
+      (incf place))))
+
+(defun circuits-by-places (numbers branches places)
+  "NUMBERS in the order of the PLACES of their states, those without one last."
+  (flet ((place (number)
+           (or (gethash (circuits-branch-state (svref branches (1- number))) places)
+               (hash-table-count places))))
+    (stable-sort (copy-list numbers) #'< :key #'place)))
