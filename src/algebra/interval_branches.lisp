@@ -6,9 +6,6 @@
 
 (in-package :maxima)
 
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size"))
-
 (defun algebra-i-abs (a)
   (cond ((minusp (cdr a)) (cons (- (cdr a)) (- (car a))))
         ((plusp (car a)) a)
