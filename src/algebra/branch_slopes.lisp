@@ -31,15 +31,21 @@
         (t (algebra-with-parts e (mapcar #'algebra-branches-carried (cdr e))))))
 
 (defun algebra-carried-slope (body variables noun)
-  "The derivative NOUN of BODY, itself unless BODY is a function with branches."
-  (if (and (algebra-call-p body) (member (caar body) *algebra-branched*)
-           (loop for (x order) on variables by #'cddr
-                 always (and (symbolp x) (integerp order))))
+  "The derivative NOUN of BODY, itself where neither the rules above nor Maxima carry it out."
+  (if (and (loop for (x order) on variables by #'cddr
+                 always (and (symbolp x) (typep order '(integer 1))))
+           (algebra-carried-by-p body (car variables)))
       (let ((slope body))
         (loop for (x order) on variables by #'cddr
               do (loop repeat order do (setq slope (algebra-slope-by slope x))))
         slope)
       noun))
+
+(defun algebra-carried-by-p (body x)
+  "Whether the derivative of BODY by X is more than its noun: f(max(x, 0))' of an open f is none."
+  (and (algebra-branched-p body)
+       (or (member (caar body) *algebra-branched*)
+           (not (alike1 ($diff body x) (list '(%derivative simp) body x 1))))))
 
 (defun algebra-slope-by (e x)
   (if (and (algebra-call-p e) (member (caar e) *algebra-branched*))
@@ -57,10 +63,22 @@
        (or (and (eq (caar e) '%derivative) (algebra-jumping-p (cadr e)))
            (some #'algebra-jump-derived-p (cdr e)))))
 
-(defun algebra-jumping-p (e)
+(defun algebra-jumping-p (e) (and ($algebra_jumping_part e) t))
+
+(defun $algebra_jumping_part (e &optional names)
+  "A part of E that may jump by itself, one in which some of NAMES occurs if they are given."
   (and (algebra-call-p e)
-       (or (and (member (caar e) '(%signum $unit_step $piecewise)) t)
-           (some #'algebra-jumping-p (cdr e)))))
+       (or (some (lambda (part) ($algebra_jumping_part part names)) (cdr e))
+           (and (member (caar e) '(%signum $unit_step $piecewise))
+                (or (null names) (some (lambda (name) (among name e)) (cdr names)))
+                e))))
+
+(defun $algebra_diff_within (e x &optional (order 1))
+  "diff(E, X, ORDER), functions with branches differentiated too, but of what jumps: its derivative
+is an impulse, and no formula shows it."
+  (loop repeat order
+        do (setq e (if (algebra-jumping-p e) ($diff e x) ($algebra_diff e x))))
+  e)
 
 (defun algebra-branch-slope (e x)
   "The derivative of E, a function with branches, by the name X, away from its corners."

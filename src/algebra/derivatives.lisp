@@ -54,7 +54,7 @@
   (append
    (loop for unit in (copy-list (algebra-ring-units *algebra-ring*))
          unless (algebra-free-p x (algebra-unit-exponent unit))
-           collect (cons unit (algebra-scan ($diff (algebra-unit-exponent unit) x))))
+           collect (cons unit (algebra-scan ($algebra_diff (algebra-unit-exponent unit) x))))
    (loop for kernel in (copy-list (algebra-ring-kernels *algebra-ring*))
          unless (algebra-free-p x (algebra-kernel-expression kernel))
            collect (cons kernel (algebra-scan

@@ -8,7 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/noun_values" "algebra/nouns" "algebra/real_roots"))
+  (core-require "algebra/interval_branches" "algebra/size" "algebra/noun_values" "algebra/nouns"
+                "algebra/real_roots"))
 
 (defvar *algebra-interval-bits* 64)
 (defvar *algebra-point* nil "values of symbols and open functions: (expression . rational), ..")
@@ -62,8 +63,7 @@
       (%asin (algebra-i-asin (algebra-i-of x)))
       (%acos (algebra-i- (algebra-i* (algebra-i 1/2) (algebra-i-pi))
                          (algebra-i-asin (algebra-i-of x))))
-      (mabs (algebra-i-abs (algebra-i-of x)))
-      (t (algebra-i-noun e)))))
+      (t (or (algebra-i-branched e #'algebra-i-of (algebra-i-unit)) (algebra-i-noun e))))))
 
 (defun algebra-i-noun (e)
   "By its value; else an integral by parts of the interval, an open function as it is given."
@@ -160,11 +160,6 @@ digits are enough."
 (defun algebra-i-over (a n)
   "A divided by the integer N > 0."
   (cons (algebra-floor (car a) n) (ceiling (cdr a) n)))
-
-(defun algebra-i-abs (a)
-  (cond ((minusp (cdr a)) (algebra-i-minus a))
-        ((plusp (car a)) a)
-        (t (cons 0 (max (- (car a)) (cdr a))))))
 
 (defun algebra-i-power (a n)
   (cond ((minusp n) (algebra-i/ (algebra-i 1) (algebra-i-power a (- n))))

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size"))
+  (core-require "algebra/size" "core/bound_names"))
 
 (defvar *algebra-zero-judge* nil "true, false or unknown for an expression; set by zero.lisp")
 
@@ -231,15 +231,28 @@
         (t (algebra-argument-form argument))))
 
 (defun algebra-rename-dummy (e)
-  "The dummy variable becomes s, or s1, s2, .. where the rest of the noun has s."
+  "The dummy variable becomes s, or s1, s2, .. where the rest of the noun has s, bound too, or
+something is assumed of it: it would hold of the variable."
   (destructuring-bind (integrand variable . limits) (cdr e)
-    (let ((dummy (algebra-free-dummy variable (cons '(mlist) (cons integrand limits)))))
+    (let* ((own (gensym "$S"))
+           (integrand (maxima-substitute own variable
+                                         (if (algebra-binds-p integrand)
+                                             (algebra-normal-argument integrand)
+                                             integrand)))
+           (dummy (algebra-free-dummy variable (cons '(mlist) (cons integrand limits)))))
       (list* (car e)
-             (algebra-normal-argument (maxima-substitute dummy variable integrand))
+             (algebra-normal-argument (maxima-substitute dummy own integrand))
              dummy
              (mapcar #'algebra-normal-argument limits)))))
 
+(defun algebra-binds-p (e)
+  "Whether a noun in E binds a name."
+  (and (algebra-call-p e)
+       (or (and (algebra-bound-name e) t) (some #'algebra-binds-p (cdr e)))))
+
 (defun algebra-free-dummy (variable e)
   (loop for name in '($s $s1 $s2 $s3 $s4 $s5)
-        when (or (eq name variable) (not (among name e))) return name
-        finally (return variable)))
+        when (and (not (among name e)) (not ($core_assumed name))) return name
+        finally (return (if (or (among variable e) ($core_assumed variable))
+                            ($core_unused_name '$s e)
+                            variable))))

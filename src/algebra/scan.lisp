@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/kernels" "algebra/noun_values" "algebra/nouns"
-                "algebra/root_kernels"))
+  (core-require "algebra/inverse_angles" "algebra/size" "algebra/kernels" "algebra/noun_values"
+                "algebra/nouns" "algebra/root_kernels"))
 
 (defvar *algebra-exponential-form* nil "true: sinh and cosh become exponentials")
 
@@ -94,7 +94,7 @@
           collect (algebra-term term kind))))
 
 (defun algebra-term (term kind)
-  (or (and (eq kind 'circular) (algebra-known-angle term))
+  (or (and (eq kind 'circular) (or (algebra-known-angle term) (algebra-known-inverse term)))
       (multiple-value-bind (factor base) (algebra-angle-factor term kind)
         (algebra-unit-term factor (algebra-find-unit base kind)))))
 
@@ -126,6 +126,12 @@ multiples of a common part their polynomials would be long, and zeros are found 
           (sine (simplify (list '(%sin) term))))
       (unless (or (among '$%pi cosine) (among '$%pi sine))
         (list 'known (algebra-scan cosine) (algebra-scan sine))))))
+
+(defun algebra-known-inverse (term)
+  "(known cosine sine) for whole multiples of acos(u), asin(u), atan(u), atan2(u, v)."
+  (let ((pair (and (consp term)
+                   (multiple-value-call #'algebra-inverse-angle (algebra-numeric-factor term)))))
+    (and pair (list 'known (algebra-scan (car pair)) (algebra-scan (cdr pair))))))
 
 (defun algebra-numeric-factor (term)
   "The number and the base of an angle; large multiples stay angles of their own."

@@ -154,6 +154,7 @@
       (%cosh (if (algebra-real-p (car arguments)) '$pos '$unknown))
       ((%sin %cos) (algebra-sine-sign (caar e) (car arguments)))
       ((%sinh %tanh %atan %asinh %signum) (algebra-part-sign (car arguments)))
+      ($unit_step (algebra-step-sign (algebra-part-sign (car arguments))))
       (%log (if (eq (algebra-part-sign (car arguments)) '$pos)
                 (algebra-part-sign (sub (car arguments) 1))
                 '$unknown))
@@ -164,6 +165,9 @@
                       arguments))))
       (t (let ((value (algebra-noun-value e)))
            (if value (algebra-part-sign value) '$unknown))))))
+
+(defun algebra-step-sign (sign)
+  (case sign ($pos '$pos) (($neg $nz $zero) '$zero) (t '$pz)))
 
 (defun algebra-sine-sign (function u)
   "Of sin or cos of U that the facts bound between multiples of a quarter turn."

@@ -49,8 +49,9 @@
   (list "multipliers" *analysis-none*))
 
 (core-public "InvariantManifolds"
-  :forms '(("function" "K" "variables")) :options '("extend" "within" "unknowns" "cyclic")
-  :kinds *analysis-motions*)
+  :forms '(("function" "K" "variables") ("equations" "equations" "integrals" "variables"))
+  :options '("extend" "within" "unknowns" "cyclic" "where" "multipliers" "K")
+  :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
 (core-rule-given "extend" "InvariantManifolds" *analysis-motions* "analysis/manifolds"
   "analysis_extended_motion" "reduced_function" "reduced_coordinates" "extend" "reduced_integrals"
   "actions")

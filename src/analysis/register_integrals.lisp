@@ -28,6 +28,13 @@
   (list "level" *analysis-none*) (list "within" *analysis-none*) "K"
   (list "parameters" *analysis-none*) *analysis-integrals*)
 
+;;; Invariant manifolds of equations with integrals; the other rules are in register.lisp
+
+(core-rule "InvariantManifolds" (core-kinds-giving "known_integrals")
+  "analysis/manifolds_of_integrals" "analysis_manifolds_of_integrals"
+  "state_equations" "integrals_on_level" "variables" "special_cases_sought"
+  (list "multipliers" *analysis-none*))
+
 ;;; Mechanical systems as equations of the first order with integrals
 
 (core-rule "routh_system_itself" *analysis-motions* "analysis/reduced_system"

@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/groups" "archive/keys" "archive/names" "archive/simplify"
-                "archive/types"))
+  (core-require "archive/groups" "archive/keys" "archive/names" "archive/patterns"
+                "archive/simplify" "archive/types"))
 
 (defun archive-arguments-taken (arguments)
   "ARGUMENTS as the session gave them: what `rat' and `taylor' made in general form, and keys that
@@ -74,8 +74,23 @@ subscripts, and a formula may stand for a law of its own.")
     (when row
       (let ((trouble (catch 'archive-unfit (funcall (second row) value) nil)))
         (when trouble
+          (when (archive-rates-p value) (setq trouble (archive-advice-on-rates trouble)))
           (core-error "~a must be ~a, found ~a~:[; ~a~;~]" name (third row)
                       (archive-argument-shown value) (string= trouble "") trouble))))))
+
+(defun archive-rates-p (value)
+  "Whether VALUE is a list of equations of motion."
+  (and (archive-list-p value)
+       (every #'archive-equation-p (cdr value))
+       (null (catch 'archive-unfit (archive-as-system value) nil))))
+
+(defun archive-list-of-names-p (value)
+  (and (archive-list-p value) (cdr value) (every #'archive-variable-p (cdr value))))
+
+(defun archive-advice-on-rates (trouble)
+  "TROUBLE with equations of motion, or what the function called does with such."
+  (let ((public (gethash *core-function* *core-publics*)))
+    (if (and public (string= trouble "")) (archive-equations-advice public) trouble)))
 
 (defun archive-argument-shown (value)
   "VALUE as Maxima spells it, cut after sixty letters."

@@ -6,8 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/bare_graph" "archive/groups" "archive/names" "archive/open"
-                "archive/types"))
+  (core-require "archive/argument_types" "archive/bare_graph" "archive/groups" "archive/names"
+                "archive/open" "archive/patterns" "archive/types"))
 
 (defstruct archive-call
   public archive kind
@@ -85,26 +85,19 @@ the list of a graph."
                   names (core-words (list (nth (length names) values)))))
     (archive-give-positional call names values)))
 
-(defun archive-form-fits (form values)
-  "Whether the number of VALUES fits FORM = (kind name .. &optional name ..)."
-  (let* ((names (cdr form)) (optional (position "&optional" names :test #'equal))
-         (least (or optional (length names)))
-         (most (if optional (1- (length names)) least)))
-    (<= least (length values) most)))
-
 (defun archive-matching-form (public values)
   (or (find-if (lambda (form) (archive-form-fits form values)) (core-public-forms public))
-      (core-error "call it as ~{~a~^, or as ~}" (archive-call-patterns public))))
+      (core-error "call it as ~{~a~^, or as ~}~a" (archive-call-patterns public)
+                  (archive-needless-names public values))))
 
-(defun archive-call-patterns (public)
-  "The ways of calling PUBLIC, as a person types them."
-  (let ((name (core-public-name public)))
-    (append
-     (when (core-public-kinds public)
-       (list (format nil "~a(\"archive.txt\"~{, ~a~})" name (core-public-trailing public))))
-     (loop for form in (core-public-forms public)
-           collect (format nil "~a(~{~a~^, ~})" name
-                           (remove "&optional" (cdr form) :test #'equal))))))
+(defun archive-needless-names (public values)
+  "What to say where VALUES are equations and what belongs to them, and a list of names too much."
+  (let ((names (find-if #'archive-list-of-names-p (cdr values))))
+    (if (and names (archive-rates-p (car values))
+             (archive-equations-form public (1- (length values))))
+        (format nil "; the names ~a follow from the equations: leave the list out"
+                (archive-argument-shown names))
+        "")))
 
 (defun archive-option (call name default)
   (gethash name (archive-call-given call) default))

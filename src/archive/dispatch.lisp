@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/argument_checks" "archive/argument_types" "archive/call"
+  (core-require "archive/argument_checks" "archive/argument_types" "archive/bound_arguments"
+                "archive/call"
                 "archive/derived" "archive/exact" "archive/groups" "archive/names"
                 "archive/needs" "archive/open" "archive/options" "archive/steps" "archive/types"))
 
@@ -24,6 +25,7 @@
     (multiple-value-bind (value text)
         (core-caught (lambda ()
                        (archive-check-depends arguments)
+                       (archive-check-bound arguments)
                        (archive-in-time name arguments)))
       (when text (merror "~A" text))
       (core-warn-now)

@@ -7,7 +7,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/call" "archive/derived" "archive/groups" "archive/keys" "archive/needs"
-                "archive/results" "archive/sections" "archive/speller"))
+                "archive/results" "archive/sections" "archive/speller" "core/bound_names"))
 
 ;;; Values
 
@@ -16,7 +16,7 @@
 default."
   (multiple-value-bind (value given) (gethash name (archive-call-given call))
     (if given
-        value
+        (archive-unassumed name value)
         (multiple-value-bind (value known) (gethash name (archive-call-values call))
           (if known
               value
@@ -25,21 +25,27 @@ default."
                       (default-given default)
                       (t (archive-missing call name)))))))))
 
+(defun archive-unassumed (name value)
+  "The VALUE of the quantity NAME as it was given, nothing being assumed of names bound in it."
+  (core-unassumed value (equal name "laws")))
+
 (defun archive-find-value (call name)
   "Two values: the value of NAME from the archive or by a rule, and whether there is one."
   (let ((rule (archive-rule call name)))
     (cond ((equal name "description") (values (archive-structure call) t))
           ((archive-own-section call name) (archive-stored-value call name rule))
           (rule (archive-rule-value call name rule))
-          (t (archive-key-value call name)))))
+          (t (multiple-value-bind (value found) (archive-key-value call name)
+               (values (archive-unassumed name value) found))))))
 
 (defun archive-structure (call)
   "The description without the keys of the analysis. `values' stay for remarks about results, such
 as the size of what is neglected, and count in no digest: a formula must not depend on them."
   (let ((hidden (mapcar #'core-symbol (remove "values" *archive-analysis-keys* :test #'equal))))
     (cons (car (archive-description (archive-call-archive call)))
-          (remove-if (lambda (e) (member (cadr e) hidden))
-                     (cdr (archive-description (archive-call-archive call)))))))
+          (loop for e in (cdr (archive-description (archive-call-archive call)))
+                unless (member (cadr e) hidden)
+                  collect (core-unassumed e (eq (cadr e) '$laws))))))
 
 (defun archive-stored-value (call name rule)
   "The stored result NAME where it is still good, else a new one; other limits may give more."
@@ -49,11 +55,11 @@ as the size of what is neglected, and count in no digest: a formula must not dep
     (ecase state
       (:fresh (if (or (archive-option call "result" nil) (archive-option call "size" nil))
                   (archive-rule-value call name rule)
-                  (values (archive-in-full call name value) t)))
+                  (values (core-unassumed (archive-in-full call name value)) t)))
       (:edited
        (core-note "using [~a] as it was edited by hand"
                   (section-name (archive-own-section call name)))
-       (values (archive-in-full call name value) t))
+       (values (core-unassumed (archive-in-full call name value)) t))
       (:stale
        (core-note "the description has changed since [~a] was computed; computing it again"
                   (section-name (archive-own-section call name)))

@@ -9,8 +9,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/zero" "circuits/coefficients" "circuits/elements"
-                "circuits/numbers" "circuits/tableau" "circuits/tableau_elimination"))
+  (core-require "algebra/branch_slopes" "algebra/size" "algebra/zero" "circuits/coefficients"
+                "circuits/elements" "circuits/numbers" "circuits/tableau"
+                "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
   tableau
@@ -194,7 +195,8 @@ branch first; last those that the person's tree keeps independent."
   (let ((result (circuits-new-row)))
     (maphash (lambda (column x)
                (unless (or (rationalp x) (freeof '$t x))
-                 (circuits-add-entry result column (circuits-inside ($diff x '$t))))
+                 (circuits-add-entry result column
+                                     (circuits-inside ($algebra_diff_within x '$t))))
                (let ((rate (circuits-rate-of-column solution column)))
                  (when rate (circuits-add-entry result rate x))))
              row)
@@ -222,7 +224,7 @@ branch first; last those that the person's tree keeps independent."
           (:rate (list '(%derivative simp) (circuits-branch-state branch) '$t 1))
           (:source (if (eql n 0)
                        (circuits-branch-value branch)
-                       ($diff (circuits-branch-value branch) '$t n)))
+                       ($algebra_diff_within (circuits-branch-value branch) '$t n)))
           (:law (circuits-open-law branch)))))))
 
 (defun circuits-open-law (branch)

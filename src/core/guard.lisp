@@ -64,13 +64,24 @@ bindings are undone."
     (when text (errlfun1 errcatch))
     (values values text)))
 
+(defparameter *core-no-value*
+  '("0 to a negative exponent" "encountered log(0)" "atan2(0,0) is undefined" "ivision by 0"
+    "ivision by zero" "0^0")
+  "What Maxima says where a formula has no value.")
+
+(defun core-maximas-text ()
+  "What Maxima says of its own error; of a formula without value more than that."
+  (let ((text (string-right-trim '(#\Newline #\Space)
+                                 (with-output-to-string (*standard-output*) ($errormsg)))))
+    (if (some (lambda (words) (search words text)) *core-no-value*)
+        (format nil "a formula has no value on the way (~a); see whether all functions are ~
+                     defined at the values that are given or assumed" (string-right-trim "." text))
+        text)))
+
 (defun core-error-text ()
   "The text of Maxima's last error, with the name of the function before it."
-  (let* ((text (if (and (cdr $error) (stringp (cadr $error)))
-                   (if (and (equal (cadr $error) "~A") (stringp (caddr $error)))
-                       (caddr $error)
-                       (string-right-trim '(#\Newline #\Space)
-                                          (with-output-to-string (*standard-output*) ($errormsg))))
-                   "unknown error"))
+  (let* ((text (cond ((not (and (cdr $error) (stringp (cadr $error)))) "unknown error")
+                     ((and (equal (cadr $error) "~A") (stringp (caddr $error))) (caddr $error))
+                     (t (core-maximas-text))))
          (prefix (and *core-function* (concatenate 'string *core-function* ": "))))
     (if (and prefix (not (eql (search prefix text) 0))) (concatenate 'string prefix text) text)))

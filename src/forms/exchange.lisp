@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "forms/piecewise"))
+  (core-require "core/bound_names" "forms/piecewise"))
 
 (defun forms-derivative-p (e)
   "True for 'diff(q,t,n) where q is a name, possibly with a subscript."
@@ -140,7 +140,8 @@
         variable
         (loop for k from 1
               for name = ($concat variable '_ k)
-              unless (or (among name body) (among name values)) return name))))
+              unless (or (among name body) (among name values) ($core_assumed name))
+                return name))))
 
 ;;; Derivatives, indefinite integrals: functions of the VARIABLES, at a point.
 
