@@ -17,6 +17,18 @@
         (core-caught (lambda () (archive-net-archive-text "test.cir" (archive-simple-text text)))))
     (or trouble archive)))
 
+(defun $netlist_said (lines)
+  "The warnings with which the netlist of LINES is read, one after the other."
+  (let ((*core-function* nil) (*core-warnings* '()) (*standard-output* (make-broadcast-stream)))
+    (core-caught (lambda () (archive-net-archive-text
+                             "test.cir" (archive-simple-text (format nil "~{~a~%~}" (cdr lines))))))
+    (format nil "~{~a~^; ~}" (reverse *core-warnings*))))
+
+(defun $netlist_foreign_words ()
+  "Three letters beyond ASCII, the first of a title too."
+  (archive-text-of-bytes
+   (coerce '(195 150 108 32 71 114 195 182 195 159 101 32 226 132 166) 'archive-bytes) "test"))
+
 (defun netlist-fault-p (answer)
   "Whether ANSWER is neither an archive nor a sentence with its line or file."
   (not (or (eql 0 (search "dynarch = 1" answer))
