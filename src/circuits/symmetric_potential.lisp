@@ -9,7 +9,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/branch_slopes" "algebra/factoring" "circuits/coefficients"
-                "circuits/element_laws" "circuits/elements" "circuits/tableau"
+                "circuits/element_laws" "circuits/elements" "circuits/impulses" "circuits/tableau"
                 "circuits/tableau_equations" "circuits/tableau_reduction"))
 
 (defun $circuits_symmetric_potential (solution)
@@ -161,7 +161,7 @@
 
 (defun $circuits_rate_along (solution potential)
   (let ((rates (cdr ($circuits_tableau_rates solution))))
-    (addn (cons ($algebra_diff potential '$t)
+    (addn (cons (mfuncall '$circuits_time_rate potential)
                 (loop for (nil left right) in rates
                       collect (mul ($algebra_diff potential (cadr left)) right)))
           nil)))

@@ -10,7 +10,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/zero" "circuits/coefficients" "circuits/elements"
-                "circuits/numbers" "circuits/tableau" "circuits/tableau_elimination"))
+                "circuits/impulses" "circuits/numbers" "circuits/tableau"
+                "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
   tableau
@@ -194,7 +195,8 @@ branch first; last those that the person's tree keeps independent."
   (let ((result (circuits-new-row)))
     (maphash (lambda (column x)
                (unless (or (rationalp x) (freeof '$t x))
-                 (circuits-add-entry result column (circuits-inside ($diff x '$t))))
+                 (circuits-add-entry result column
+                                     (circuits-inside (mfuncall '$circuits_time_rate x))))
                (let ((rate (circuits-rate-of-column solution column)))
                  (when rate (circuits-add-entry result rate x))))
              row)
@@ -222,8 +224,14 @@ branch first; last those that the person's tree keeps independent."
           (:rate (list '(%derivative simp) (circuits-branch-state branch) '$t 1))
           (:source (if (eql n 0)
                        (circuits-branch-value branch)
-                       ($diff (circuits-branch-value branch) '$t n)))
+                       (circuits-rate-of-source branch n)))
           (:law (circuits-open-law branch)))))))
+
+(defun circuits-rate-of-source (branch n)
+  "The derivative of order N."
+  (let ((e (circuits-branch-value branch)))
+    (loop repeat n do (setq e (mfuncall '$circuits_time_rate e)))
+    e))
 
 (defun circuits-open-law (branch)
   "A name for what the law of BRANCH gives, until its argument is known."
