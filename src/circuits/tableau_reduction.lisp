@@ -224,14 +224,8 @@ branch first; last those that the person's tree keeps independent."
           (:rate (list '(%derivative simp) (circuits-branch-state branch) '$t 1))
           (:source (if (eql n 0)
                        (circuits-branch-value branch)
-                       (circuits-rate-of-source branch n)))
+                       (mfuncall '$circuits_rate_of_order (circuits-branch-value branch) n)))
           (:law (circuits-open-law branch)))))))
-
-(defun circuits-rate-of-source (branch n)
-  "The derivative of order N."
-  (let ((e (circuits-branch-value branch)))
-    (loop repeat n do (setq e (mfuncall '$circuits_time_rate e)))
-    e))
 
 (defun circuits-open-law (branch)
   "A name for what the law of BRANCH gives, until its argument is known."
