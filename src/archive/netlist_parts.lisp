@@ -175,6 +175,7 @@
 
 (defun archive-net-take-element (netlist line place)
   (let* ((text (net-line-text line)) (fields (archive-net-fields text)))
+    (unless fields (archive-net-fault "no element stands here, only commas"))
     (when (> (length (netlist-elements netlist)) (core-sized *archive-net-most*))
       (archive-net-fault "more than ~d elements; option size lifts that"
                          (core-sized *archive-net-most*)))
