@@ -51,10 +51,6 @@
 
 (setf (get '|$RealRoot| 'operators) 'algebra-simplified-real-root)
 
-;;; Scalars, though lists stand in them: else their products with lists and matrices stay undone.
-(mputprop '|$RealRoot| t '$scalar)
-(mputprop '$piecewise t '$scalar)
-
 (defun algebra-exact-number (x)
   (if ($bfloatp x)
       (* (cadr x) (expt 2 (- (caddr x) (third (car x)))))
