@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/branch_slopes" "algebra/factoring" "circuits/coefficients"
+  (core-require "algebra/factoring" "circuits/coefficients"
                 "circuits/element_laws" "circuits/elements" "circuits/impulses" "circuits/tableau"
                 "circuits/tableau_equations" "circuits/tableau_reduction"))
 
@@ -163,5 +163,5 @@
   (let ((rates (cdr ($circuits_tableau_rates solution))))
     (addn (cons (mfuncall '$circuits_time_rate potential)
                 (loop for (nil left right) in rates
-                      collect (mul ($algebra_diff potential (cadr left)) right)))
+                      collect (mul (mfuncall '$circuits_slope potential (cadr left)) right)))
           nil)))
