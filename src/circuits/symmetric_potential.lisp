@@ -161,6 +161,7 @@
 
 (defun $circuits_rate_along (solution potential)
   (let ((rates (cdr ($circuits_tableau_rates solution))))
+    (mfuncall '$circuits_refuse_squared_impulses (cons '(mlist) rates))
     (addn (cons (mfuncall '$circuits_time_rate potential)
                 (loop for (nil left right) in rates
                       collect (mul (mfuncall '$circuits_slope potential (cadr left)) right)))
