@@ -17,6 +17,18 @@
         (core-caught (lambda () (archive-net-archive-text "test.cir" (archive-simple-text text)))))
     (or trouble archive)))
 
+(defun $netlist_said (lines)
+  "The warnings with which the netlist of LINES is read, one after the other."
+  (let ((*core-function* nil) (*core-warnings* '()) (*standard-output* (make-broadcast-stream)))
+    (core-caught (lambda () (archive-net-archive-text
+                             "test.cir" (archive-simple-text (format nil "~{~a~%~}" (cdr lines))))))
+    (format nil "~{~a~^; ~}" (reverse *core-warnings*))))
+
+(defun $netlist_foreign_words ()
+  "Three letters beyond ASCII, the first of a title too."
+  (archive-text-of-bytes
+   (coerce '(195 150 108 32 71 114 195 182 195 159 101 32 226 132 166) 'archive-bytes) "test"))
+
 (defun netlist-fault-p (answer)
   "Whether ANSWER is neither an archive nor a sentence with its line or file."
   (not (or (eql 0 (search "dynarch = 1" answer))
@@ -32,7 +44,7 @@
 (defun $netlist_faults_of_changes (lines count seed)
   "Faults of the netlist LINES, COUNT times with some of its characters exchanged or doubled."
   (let ((text (format nil "~{~a~%~}" (cdr lines)))
-        (letters "rlcvixkdbefgh019.+-*/^(){}=,' 	;$uinmeg
+        (letters "rlcvixkdbefgh019.+-*/^(){}=,'<>?: 	;$uinmeg
 %\"#")
         (state seed))
     (flet ((next (n) (mod (ash (setq state (mod (+ (* 1103515245 state) 12345) (ash 1 31))) -12)
@@ -53,7 +65,7 @@
     "R1 IN a/b {R0*2}" "C1 a/b 0 'C0' IC=0.5" "L1 a/b" "+ 0_1 10mH ; comment" "* a comment"
     "r2 0_1 gnd 4.7MEGohm $ another" "D1 a/b 0 DM 2" ".model dm D(IS=1e-14 N=1.5)"
     "Xa in out divider params: ra=5k" "B1 out 0 I={V(out)*V(out)*V(out)/1MEG + pow(v(out),2)}"
-    "Cx out 0 1n" "L2 out 0 1m" "K1 L1 L2 0.9" "E1 p 0 in out 2" "Rp p 0 1" "F1 q 0 V1 2" "Rq q 0 1"
+    "B2 out 0 I={time<1m ? 0 : (time<=2m ? u(time) : 1)}" "Cx out 0 1n" "L2 out 0 1m" "K1 L1 L2 0.9" "E1 p 0 in out 2" "Rp p 0 1" "F1 q 0 V1 2" "Rq q 0 1"
     "I1 q 0 PULSE(0 1 1m 1u 1u 2m)" "I2 q 0 PWL(0 0 1m {R0/1k})" "I3 q 0 EXP(0 1 0 1m 2m 1m)"
     ".subckt divider p q params: ra=1k rb={2*ra}" "Rtop p q {ra}" "Rbot q 0 rb" ".ends"
     ".ic v(q)=1" ".tran 1u 1m uic" ".print tran v(out)" ".end"))

@@ -86,11 +86,13 @@
   "analysis/given_solution" "analysis_state_motion"
   "state_equations" *analysis-variables* "solution" "special_cases_sought")
 (core-rule "undisturbed_motion" '("circuit") "analysis/forced_motion" "analysis_circuit_motion"
-  "state_equations" *analysis-variables* (list "solution" *analysis-none*) "special_cases_sought")
+  "state_equations" *analysis-variables* (list "solution" *analysis-none*) "special_cases_sought"
+  "assumptions")
 (core-rule "undisturbed_motion" *analysis-motions* "analysis/given_solution"
   "analysis_lagrange_motion" "LagrangeEquations" "coordinates" "solution" "special_cases")
 (core-rule "charge_motion" '("circuit") "analysis/second_order" "analysis_charge_motion"
-  "LagrangeEquations" "coordinates" (list "solution" *analysis-none*) "special_cases")
+  "LagrangeEquations" "coordinates" (list "solution" *analysis-none*) "special_cases"
+  "assumptions")
 (core-rule "undisturbed_routh_motion" :any "analysis/first_approximation" "analysis_routh_motion"
   "RouthEquations" "remaining_coordinates" "coordinates" "cyclic_integrals" "solution"
   "special_cases")
@@ -239,8 +241,11 @@
   :kinds *analysis-kinds*)
 (core-rule "stability_map" '("polynomial") "analysis/stability_map" "analysis_polynomial_map"
   "polynomial" "horizontal" "vertical")
-(core-rule "stability_map" *analysis-states* "analysis/stability_map" "analysis_state_map"
-  "CharacteristicPolynomial" *analysis-lambda* "motion" *analysis-values* "horizontal" "vertical")
+(core-rule "stability_map" (remove "circuit" *analysis-states* :test #'string=)
+  "analysis/stability_map" "analysis_state_map" "CharacteristicPolynomial" *analysis-lambda*
+  "motion" *analysis-values* "horizontal" "vertical")
+(core-rule "stability_map" '("circuit") "analysis/stability_map" "analysis_circuit_map"
+  "CharacteristicPolynomial" *analysis-lambda* "motion" *analysis-values* "map_axes" "assumptions")
 (core-rule "map_axes" :any "analysis/stability_map" "analysis_map_axes" "horizontal" "vertical")
 (core-rule "map_theorems" :any "analysis/stability_map" "analysis_map_theorems" "Lagrangian"
   "actions" *analysis-laws*)

@@ -149,12 +149,23 @@ subscripts, and a formula may stand for a law of its own.")
 
 (defun archive-as-movement (value)
   "Equations for coordinates and derivatives of coordinates, none twice."
+  (archive-require-solved (archive-items value))
   (dolist (item (archive-items value))
     (unless (archive-equation-p item)
       (archive-unfit "~a is not an equation" (archive-argument-shown item)))
     (unless (archive-time-derivative-p (second item)) (archive-a-variable (second item)))
     (archive-formula-inside (third item)))
   (archive-check-distinct (archive-lefts value)))
+
+(defun archive-require-solved (items)
+  "[x = .., e = 0, dimension = d] of Equilibria is a set, of which one point may be named."
+  (when (and (member '$dimension items :test #'eq :key (lambda (e) (and (consp e) (second e))))
+             (member-if (lambda (e) (and (archive-equation-p e) (eql (third e) 0)
+                                         (consp (second e))
+                                         (not (archive-time-derivative-p (second e)))))
+                        items))
+    (archive-unfit "its equations e = 0 are not solved: give values to the parameters by where = ~
+                    [..] in Equilibria, or name one solution, [x = .., ..]")))
 
 (defun archive-as-solution (value)
   (if (archive-items value) (archive-as-movement value) (archive-unfit)))

@@ -6,7 +6,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/netlist_lines" "archive/netlist_values" "archive/tokens" "core/sizes"))
+  (core-require "archive/netlist_lines" "archive/netlist_values" "archive/tokens" "core/sizes"
+                "core/title_lines"))
 
 (defstruct (archive-net-place (:conc-name net-place-))
   "Where lines stand: in the whole netlist or in a call of a subcircuit."
@@ -38,7 +39,7 @@
 (defun archive-net-read (text)
   "The netlist TEXT as an archive-netlist."
   (multiple-value-bind (title lines) (archive-net-split text)
-    (let* ((netlist (make-archive-netlist :title title))
+    (let* ((netlist (make-archive-netlist :title (core-title-of-line title)))
            (own (archive-net-take-subcircuits netlist (archive-net-without-control netlist lines))))
       (archive-net-place-lines netlist own (netlist-top netlist) 0)
       (setf (netlist-elements netlist) (nreverse (netlist-elements netlist)))
@@ -174,6 +175,7 @@
 
 (defun archive-net-take-element (netlist line place)
   (let* ((text (net-line-text line)) (fields (archive-net-fields text)))
+    (unless fields (archive-net-fault "no element stands here, only commas"))
     (when (> (length (netlist-elements netlist)) (core-sized *archive-net-most*))
       (archive-net-fault "more than ~d elements; option size lifts that"
                          (core-sized *archive-net-most*)))

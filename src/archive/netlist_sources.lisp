@@ -1,7 +1,7 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Independent sources of a netlist as functions of the time t: DC, SIN, EXP, PWL, one PULSE
-;;; (ngspice manual, 4.1). Each segment is a case of piecewise. A periodic PULSE is refused: it has
-;;; no end. Fields are texts of the archive's grammar.
+;;; (ngspice manual, 4.1). Each segment is a case of piecewise; a jump takes its new value at once.
+;;; A periodic PULSE is refused: it has no end. Fields are texts of the archive's grammar.
 
 (in-package :maxima)
 
@@ -119,21 +119,29 @@
               slope (list v1 v2 (archive-net-since to) fall-constant)))))
 
 (defun archive-net-lines-of-time (numbers span)
-  "PWL(t1 v1 t2 v2 ..): straight lines between points, constant outside."
+  "PWL(t1 v1 t2 v2 ..): straight lines between points, constant outside. Points at one time are a
+jump from the first of them to the last."
   (declare (ignore span))
   (unless (and numbers (evenp (length numbers)))
     (archive-net-fault "PWL needs pairs of a time and a value"))
   (let ((points (loop for (time value) on numbers by #'cddr
                       collect (list (archive-net-known time) value))))
-    (loop for ((a) (b)) on points
-          while b
-          do (unless (< a b) (archive-net-fault "the times of PWL must rise")))
+    (archive-net-check-times (mapcar #'first points))
     (archive-net-cases
      (append (list (first points))
              (loop for (one other) on points
-                   while other
-                   collect (list (first other) (archive-net-line-between one other)))
+                   when (and other (< (first one) (first other)))
+                     collect (list (first other) (archive-net-line-between one other)))
              (list (list nil (second (first (last points)))))))))
+
+(defun archive-net-check-times (times)
+  (loop for (a b c) on times
+        do (when (and b (> a b))
+             (archive-net-fault "the times of PWL must rise; ~a stands behind ~a" b a))
+           (when (and b (= a b) (not (eql b c)))
+             (core-warn "~a, line ~d: PWL jumps at t = ~a, where it has two points; programs ~
+                         other than ngspice may make a slope of it, or refuse it"
+                        *archive-net-file* *archive-net-line* a))))
 
 (defun archive-net-line-between (one other)
   (destructuring-bind ((a v) (b w)) (list one other)

@@ -15,7 +15,8 @@
   '(("abs" . "abs") ("sqrt" . "sqrt") ("exp" . "exp") ("ln" . "log") ("log" . "log")
     ("sin" . "sin") ("cos" . "cos") ("tan" . "tan") ("asin" . "asin") ("acos" . "acos")
     ("atan" . "atan") ("arctan" . "atan") ("sinh" . "sinh") ("cosh" . "cosh") ("tanh" . "tanh")
-    ("min" . "min") ("max" . "max") ("sgn" . "signum"))
+    ("min" . "min") ("max" . "max") ("sgn" . "signum")
+    ("u" . "unit_step") ("stp" . "unit_step"))
   "Functions of expressions, and what the archive calls them.")
 
 ;;; Numbers
@@ -74,7 +75,13 @@
 (defun archive-net-expression (text scope)
   "TEXT, an expression without its { }, as a text of the archive's grammar; SCOPE, a function of a
 name in small letters, gives the text of its value."
-  (let ((text (archive-simple-text text)) (position 0) (end (length text)) (pieces '()))
+  (let* ((text (archive-simple-text text)) (mark (archive-net-outside text "?")))
+    (if mark
+        (archive-net-choice text mark scope)
+        (archive-net-plain-expression text scope))))
+
+(defun archive-net-plain-expression (text scope)
+  (let ((position 0) (end (length text)) (pieces '()))
     (loop
       (setq position (or (position-if-not #'archive-net-blank-p text :start position) end))
       (when (>= position end)
@@ -97,6 +104,9 @@ name in small letters, gives the text of its value."
           ((and (char= c #\*) (< (1+ from) end) (char= (char text (1+ from)) #\*))
            (archive-net-power-piece text (+ from 2) end))
           ((char= c #\^) (archive-net-power-piece text (1+ from) end))
+          ((archive-net-choice-inside-p text from end)
+           (let ((close (archive-net-closing text from end)))
+             (values (archive-net-expression (subseq text (1+ from) close) scope) (1+ close))))
           ((find c "+-*/(),") (values (string c) (1+ from)))
           (t (archive-net-fault "found `~a' in an expression; + - * / ^ ** ( ), numbers, ~
                                  parameters and functions are read" (archive-shown (string c)))))))
@@ -166,6 +176,7 @@ name in small letters, gives the text of its value."
     (flet ((inner (part) (archive-net-expression part scope)))
       (values
        (cond ((string= name "log10") (format nil "(log(~a)/log(10))" (inner inside)))
+             ((string= name "uramp") (format nil "max(0, ~a)" (inner inside)))
              ((string= name "pow")
               (destructuring-bind (base exponent) (archive-net-two-parts inside)
                 (when *archive-net-even-powers* (archive-net-check-exponent exponent))
@@ -180,6 +191,70 @@ name in small letters, gives the text of its value."
              (#\( (incf depth))
              (#\) (when (zerop (decf depth)) (return position))))
         finally (archive-net-fault "a parenthesis without its end")))
+
+;;; Choices, condition ? value : other
+
+(defun archive-net-outside (text characters &optional (start 0))
+  "The place of the first of CHARACTERS outside of parentheses from START on, or nil."
+  (let ((depth 0))
+    (position-if (lambda (c)
+                   (case c (#\( (incf depth)) (#\) (decf depth)))
+                   (and (zerop depth) (find c characters)))
+                 text :start start)))
+
+(defun archive-net-choice-inside-p (text from end)
+  "Whether a parenthesis with a choice in it begins at FROM."
+  (and (char= (char text from) #\() (find #\? text :start from)
+       (archive-net-outside (subseq text (1+ from) (archive-net-closing text from end)) "?")))
+
+(defun archive-net-choice (text mark scope)
+  "The choice whose `?' stands at MARK, as piecewise."
+  (when (archive-net-outside text ",")
+    (archive-net-fault "a choice c ? a : b among arguments stands in parentheses of its own"))
+  (format nil "piecewise(~{~a~^, ~})" (archive-net-pieces text mark scope)))
+
+(defun archive-net-pieces (text mark scope)
+  "[condition, value] of the choice whose `?' stands at MARK and of those behind its colon."
+  (let* ((colon (archive-net-colon text mark))
+         (other (archive-net-bared (subseq text (1+ colon))))
+         (next (archive-net-outside other "?")))
+    (cons (format nil "[~a, ~a]" (archive-net-condition (subseq text 0 mark) scope)
+                  (archive-net-expression (subseq text (1+ mark) colon) scope))
+          (if next
+              (archive-net-pieces other next scope)
+              (list (format nil "[true, ~a]" (archive-net-expression other scope)))))))
+
+(defun archive-net-bared (text)
+  "TEXT without blanks at its ends and parentheses around all of it."
+  (let* ((text (archive-net-trimmed text)) (end (length text)))
+    (if (and (plusp end) (char= (char text 0) #\()
+             (= (archive-net-closing text 0 end) (1- end)))
+        (archive-net-bared (subseq text 1 (1- end)))
+        text)))
+
+(defun archive-net-colon (text mark)
+  "The place of the colon of the choice whose `?' stands at MARK."
+  (loop with depth = 1
+        for place = (archive-net-outside text "?:" (1+ mark))
+          then (archive-net-outside text "?:" (1+ place))
+        while place
+        do (if (char= (char text place) #\?) (incf depth) (decf depth))
+           (when (zerop depth) (return place))
+        finally (archive-net-fault "`?' without its colon")))
+
+(defun archive-net-condition (text scope)
+  "A relation, perhaps in parentheses."
+  (let* ((text (archive-net-bared text)) (end (length text))
+         (sign (archive-net-outside text "<>")))
+    (cond ((and sign (not (find-if (lambda (c) (find c "&|!")) text)))
+           (let ((after (if (and (< (1+ sign) end) (char= (char text (1+ sign)) #\=))
+                            (+ 2 sign)
+                            (1+ sign))))
+             (format nil "~a ~a ~a" (archive-net-expression (subseq text 0 sign) scope)
+                     (subseq text sign after)
+                     (archive-net-expression (subseq text after) scope))))
+          (t (archive-net-fault "the condition ~a is not read; < <= > >= are"
+                                (archive-shown text))))))
 
 (defun archive-net-two-parts (text)
   "The parts before and after the comma of TEXT outside of parentheses."

@@ -8,7 +8,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "archive/bytes" "archive/disk" "archive/groups" "archive/netlist_elements"
                 "archive/netlist_lines" "archive/netlist_parts" "archive/netlist_values"
-                "archive/open" "archive/store"))
+                "archive/open" "archive/store" "archive/tokens"))
 
 (defun $archive_read_netlist (netlist archive replace)
   "Reads the file NETLIST and writes ARCHIVE, whose name is returned."
@@ -30,8 +30,35 @@
           (core-caught (lambda () (archive-of-text "the archive" text))))
       (declare (ignore archive))
       (when trouble (core-error "~a gives no archive: ~a" file trouble)))
+    (archive-net-say-title netlist)
     (archive-net-say-ignored (netlist-ignored (net-sheet-netlist sheet)))
     text))
+
+(defun archive-net-say-title (text)
+  "A warning where the first line of TEXT looks like one that is to be obeyed."
+  (let ((line (cdr (first (archive-net-physical-lines text)))))
+    (when (or (archive-net-obeyed-title-p line) (archive-net-element-title-p line))
+      (core-warn "the first line, ~a, is the title, as SPICE has it, and is not obeyed~:[~;, ~
+                  though ngspice does~]; if it is part of the circuit, put a title above it"
+                 (archive-shown line) (archive-net-obeyed-title-p line)))))
+
+(defun archive-net-obeyed-title-p (line)
+  "Whether ngspice takes LINE for more than a title: two backslashes at its end join the next one."
+  (or (loop for word in '("." "*#" "*ng_script")
+            thereis (eql 0 (search word line :test #'char-equal)))
+      (and (string/= line "") (char/= (char line 0) #\*)
+           (eql (search "\\\\" line :from-end t) (- (length line) 2)))))
+
+(defun archive-net-element-title-p (line)
+  "Whether LINE reads as an element: a letter of one, two nodes, and what begins like a number."
+  (let ((fields (loop for start = 0 then (1+ end)
+                      for end = (position-if #'archive-net-blank-p line :start start)
+                      for field = (subseq line start end)
+                      unless (string= field "") collect field
+                      while end)))
+    (and (fourth fields) (find (char (first fields) 0) "rlcviegfhkdb" :test #'char-equal)
+         (or (digit-char-p (char (fourth fields) 0)) (find (char (fourth fields) 0) "{"))
+         t)))
 
 (defun archive-net-file-text (file)
   (let ((bytes (archive-file-bytes file)))
@@ -66,8 +93,8 @@
               (and rows (format nil "~%[couplings]~%~{~a~%~}" rows))))))
 
 (defun archive-net-title (sheet)
-  "The title without what a string cannot hold."
-  (substitute-if #\Space (lambda (c) (or (find c "\"\\") (< (char-code c) 32)))
+  "The title in one line."
+  (substitute-if #\Space (lambda (c) (< (char-code c) 32))
                  (or (netlist-title (net-sheet-netlist sheet)) "")))
 
 (defun archive-net-key (key items)

@@ -11,7 +11,8 @@
 (defparameter *circuits-spice-functions*
   '((%sin . "sin") (%cos . "cos") (%tan . "tan") (%asin . "asin") (%acos . "acos") (%atan . "atan")
     (%sinh . "sinh") (%cosh . "cosh") (%tanh . "tanh") (%log . "ln") (%exp . "exp") (%sqrt . "sqrt")
-    (mabs . "abs") (%signum . "sgn") ($max . "max") ($min . "min")))
+    (mabs . "abs") (%signum . "sgn") ($max . "max") ($min . "min")
+    ($unit_step . "u")))
 
 (defparameter *circuits-spice-relations*
   '((mlessp . "<") (mleqp . "<=") (mgreaterp . ">") (mgeqp . ">=")))

@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/branch_slopes" "algebra/factoring" "circuits/coefficients"
-                "circuits/element_laws" "circuits/elements" "circuits/tableau"
+  (core-require "algebra/factoring" "circuits/coefficients"
+                "circuits/element_laws" "circuits/elements" "circuits/source_impulses" "circuits/tableau"
                 "circuits/tableau_equations" "circuits/tableau_reduction"))
 
 (defun $circuits_symmetric_potential (solution)
@@ -161,7 +161,8 @@
 
 (defun $circuits_rate_along (solution potential)
   (let ((rates (cdr ($circuits_tableau_rates solution))))
-    (addn (cons ($algebra_diff potential '$t)
+    (mfuncall '$circuits_refuse_squared_impulses (cons '(mlist) rates))
+    (addn (cons (mfuncall '$circuits_time_rate potential)
                 (loop for (nil left right) in rates
-                      collect (mul ($algebra_diff potential (cadr left)) right)))
+                      collect (mul (mfuncall '$circuits_slope potential (cadr left)) right)))
           nil)))

@@ -9,8 +9,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/branch_slopes" "algebra/size" "algebra/zero" "circuits/coefficients"
-                "circuits/elements" "circuits/numbers" "circuits/tableau"
+  (core-require "algebra/size" "algebra/zero" "circuits/coefficients" "circuits/elements"
+                "circuits/source_impulses" "circuits/numbers" "circuits/tableau"
                 "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
@@ -196,7 +196,7 @@ branch first; last those that the person's tree keeps independent."
     (maphash (lambda (column x)
                (unless (or (rationalp x) (freeof '$t x))
                  (circuits-add-entry result column
-                                     (circuits-inside ($algebra_diff_within x '$t))))
+                                     (circuits-inside (mfuncall '$circuits_time_rate x))))
                (let ((rate (circuits-rate-of-column solution column)))
                  (when rate (circuits-add-entry result rate x))))
              row)
@@ -224,7 +224,7 @@ branch first; last those that the person's tree keeps independent."
           (:rate (list '(%derivative simp) (circuits-branch-state branch) '$t 1))
           (:source (if (eql n 0)
                        (circuits-branch-value branch)
-                       ($algebra_diff_within (circuits-branch-value branch) '$t n)))
+                       (mfuncall '$circuits_rate_of_order (circuits-branch-value branch) n)))
           (:law (circuits-open-law branch)))))))
 
 (defun circuits-open-law (branch)

@@ -10,7 +10,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/new_files" "circuits/element_laws" "circuits/elements" "circuits/graph"
-                "circuits/netlist_formulas" "forms/exchange" "forms/laws"))
+                "circuits/netlist_formulas" "core/title_lines" "forms/exchange" "forms/laws"))
 
 (defstruct circuits-card-file
   circuit branches
@@ -45,14 +45,9 @@
             (circuits-span-line time))))
 
 (defun circuits-title-line (title)
-  "TITLE as the first line; circuit where it is none. ngspice obeys a first line that begins with a
-dot, with *# or as *ng_script: these begin with a star apart."
+  "TITLE as the first line; circuit where it is none."
   (let ((line (string-trim " " (substitute-if #\Space (lambda (c) (< (char-code c) 32)) title))))
-    (flet ((begins (word) (eql 0 (search word line :test #'char-equal))))
-      (cond ((string= line "") "circuit")
-            ((begins ".") (format nil "* ~a" line))
-            ((or (begins "*#") (begins "*ng_script")) (format nil "* ~a" (subseq line 1)))
-            (t line)))))
+    (if (string= line "") "circuit" (core-title-line line))))
 
 (defun circuits-new-cards (circuit numbers nodes start)
   (let* ((branches (cdr ($circuits_circuit_branches circuit)))

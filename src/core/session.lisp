@@ -119,6 +119,11 @@ default is to print a line."
 
 ;;; Properties
 
+;;; Words of results are scalars, though lists stand in them: else their products with lists and
+;;; matrices stay undone. (mputprop would note them among the person's own properties.)
+(dolist (word '(|$RealRoot| $piecewise))
+  (setf (get word 'mprops) (list nil '$scalar t)))
+
 (defun core-property-subset (plist test)
   (loop for (key value) on plist by #'cddr when (funcall test key) append (list key value)))
 
