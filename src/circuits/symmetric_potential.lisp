@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/factoring" "circuits/coefficients"
-                "circuits/element_laws" "circuits/elements" "circuits/source_impulses" "circuits/tableau"
+  (core-require "algebra/factoring" "circuits/coefficients" "circuits/element_laws"
+                "circuits/elements" "circuits/source_impulses" "circuits/tableau"
                 "circuits/tableau_equations" "circuits/tableau_reduction"))
 
 (defun $circuits_symmetric_potential (solution)

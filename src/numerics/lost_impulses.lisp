@@ -53,21 +53,22 @@
           thereis (> (abs (aref (numerics-impulses-values impulses) k))
                      (* *numerics-nothing-lost* (aref (numerics-impulses-largest impulses) k))))))
 
-(defun numerics-impulse-in (impulses step)
-  "The argument of a sign at whose zero in STEP an impulse is lost, or nil."
+(defun numerics-impulse-in (impulses step &optional end)
+  "The argument of a sign at whose zero in STEP, before the time END, an impulse is lost, or nil."
   (let ((events (numerics-impulses-events impulses)))
     (numerics-gaps-at impulses (numerics-step-to step) (numerics-step-after step))
     (loop for (share place) in (numerics-zeros-of-step events step)
           for event = (numerics-event-of events step share place 0)
           do (numerics-gaps-at impulses (numerics-event-moment event) (numerics-event-state event))
-          when (numerics-impulse-at-p impulses place)
+          when (and (not (eql end (aref (numerics-event-moment event) 0)))
+                    (numerics-impulse-at-p impulses place))
             do (return (first (nth place (numerics-impulses-lost impulses)))))))
 
-(defun numerics-impulse-part (impulses found)
+(defun numerics-impulse-part (impulses end found)
   "A part of an observer that calls FOUND with a phrase and ends the run before a step in which an
-impulse is lost."
+impulse is lost; one at the END of the run is none of it."
   (lambda (step)
-    (let ((u (numerics-impulse-in impulses step)))
+    (let ((u (numerics-impulse-in impulses step end)))
       (when u
         (funcall found (format nil "where ~a = 0 a function that the equations are derivatives of ~
                                     jumps, and they do not show the impulse; give a smooth one"

@@ -126,7 +126,8 @@ steps; for others a part of an observer, or nil."
                     (numerics-simulation-program run))))
     (and impulses
          (numerics-impulse-part
-          impulses (lambda (trouble) (setf (numerics-simulation-fault run) trouble))))))
+          impulses (numerics-controls-end (numerics-simulation-controls run))
+          (lambda (trouble) (setf (numerics-simulation-fault run) trouble))))))
 
 (defun numerics-run-observer (run)
   (numerics-observer
