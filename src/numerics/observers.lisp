@@ -60,12 +60,12 @@ was found between two steps back to the constraints."
     rows))
 
 (defun numerics-add-rows-between (rows step)
-  "The rows at those of the times that STEP reaches."
+  "The rows at those of the times that STEP reaches; it has no length where it was undone."
   (let ((from (numerics-step-from step)) (length (numerics-step-length step))
         (times (numerics-rows-times rows)) (state (numerics-rows-state rows))
         (moment (numerics-rows-moment rows)))
     (declare (type numerics-vector from times state moment) (double-float length))
-    (loop while (< (numerics-rows-next rows) (length times))
+    (loop while (and (/= length 0d0) (< (numerics-rows-next rows) (length times)))
           do (let* ((time (aref times (numerics-rows-next rows)))
                     (share (/ (- time (aref from 0) (aref from 1)) length)))
                (when (> share 1d0) (return))
