@@ -10,8 +10,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/zero" "circuits/coefficients" "circuits/elements"
-                "circuits/source_impulses" "circuits/numbers" "circuits/tableau"
-                "circuits/tableau_elimination"))
+                "circuits/linear_ties" "circuits/numbers" "circuits/source_impulses"
+                "circuits/tableau" "circuits/tableau_elimination"))
 
 (defstruct circuits-solution
   tableau
@@ -124,7 +124,8 @@
 
 (defun circuits-use-ties (solution ties rows)
   (loop while ties
-        do (let* ((tie (pop ties)) (k (circuits-tied-state solution tie)))
+        do (let* ((tie (circuits-used-tie solution (pop ties)))
+                  (k (circuits-tied-state solution tie)))
              (when (plusp (hash-table-count tie))
                (unless k (circuits-refuse-tie solution tie))
                (let ((row (circuits-tied-row solution tie k)))
@@ -132,6 +133,11 @@
                  (setf (circuits-solution-states solution)
                        (remove k (circuits-solution-states solution)))))))
   (setf (circuits-solution-rows solution) rows))
+
+(defun circuits-used-tie (solution tie)
+  (multiple-value-bind (row pivot) (circuits-linear-tie (circuits-solution-tableau solution) tie)
+    (when pivot (circuits-add-pivots solution (list pivot)))
+    row))
 
 (defun circuits-tied-state (solution tie)
   "The number of the state that gives way in the row TIE: the latest, or nil."
