@@ -20,7 +20,7 @@ expressions. A function (operation u): it gives the element of a program for the
   (if *algebra-impulses* (list '(algebra-impulse simp) u) 0))
 
 (defun algebra-with-signs (e)
-  "E with signum(u) for u/abs(u), as Maxima differentiates abs(u), and for pieces."
+  "E with signum(u) for u/abs(u), as Maxima differentiates abs(u), and abs(u)/u; and for pieces."
   (cond ((not (algebra-call-p e)) e)
         ((eq (caar e) '$piecewise) (algebra-pieces-with-signs (cdr e)))
         ((eq (caar e) 'mtimes)
@@ -29,14 +29,18 @@ expressions. A function (operation u): it gives the element of a program for the
         (t (algebra-with-parts e (mapcar #'algebra-with-signs (cdr e))))))
 
 (defun algebra-factors-with-signs (factors)
+  "FACTORS with signum(u) for u and 1/abs(u), or for abs(u) and 1/u."
   (dolist (factor factors factors)
-    (let ((u (and (consp factor) (eq (caar factor) 'mexpt) (eql (third factor) -1)
-                  (consp (second factor)) (eq (caar (second factor)) 'mabs)
-                  (find (second (second factor)) factors :test #'alike1))))
-      (when u
+    (let* ((below (and (consp factor) (eq (caar factor) 'mexpt) (eql (third factor) -1)
+                       (second factor)))
+           (absolute (and (consp below) (eq (caar below) 'mabs)))
+           (u (if absolute (second below) below))
+           (other (and u (find (if absolute u (list '(mabs simp) u)) factors :test #'alike1))))
+      (when other
         (return (cons (list '(%signum simp) u)
                       (algebra-factors-with-signs
-                       (remove u (remove factor factors :count 1) :test #'alike1 :count 1))))))))
+                       (remove other (remove factor factors :count 1)
+                               :test #'alike1 :count 1))))))))
 
 (defun algebra-pieces-with-signs (pieces)
   "The sum of the values of PIECES, [condition, value], .., each times 1 where it holds."
@@ -51,13 +55,13 @@ expressions. A function (operation u): it gives the element of a program for the
 
 (defun algebra-condition-with-signs (condition)
   "1 where CONDITION holds, else 0, beside jumps."
-  (flet ((step (x y) (div (add 1 (take '(%signum) (sub x y))) 2))
+  (flet ((jump (x y) (div (add 1 (take '(%signum) (sub x y))) 2))
          (parts () (mapcar #'algebra-condition-with-signs (cdr condition))))
     (cond ((member condition '(t $otherwise)) 1)
           ((atom condition) 0)
           (t (case (caar condition)
-               ((mgreaterp mgeqp) (step (second condition) (third condition)))
-               ((mlessp mleqp) (step (third condition) (second condition)))
+               ((mgreaterp mgeqp) (jump (second condition) (third condition)))
+               ((mlessp mleqp) (jump (third condition) (second condition)))
                (mand (muln (parts) nil))
                (mor (sub 1 (muln (mapcar (lambda (part) (sub 1 part)) (parts)) nil)))
                (mnot (sub 1 (car (parts))))

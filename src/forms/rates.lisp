@@ -53,7 +53,8 @@ perhaps a small one, of parts as large as SIZE. A list, for what is done to all 
           (loop for (nil pivot . whole) in (forms-rates-guards rates)
                 append (list pivot whole))
           (forms-rates-inertia rates)
-          (apply #'append (forms-rates-impulses rates))))
+          (loop for (u . gaps) in (forms-rates-impulses rates)
+                append (cons u (mapcar #'cdr gaps)))))
 
 (defun forms-right-sides (rates)
   "The elements of X."
@@ -77,8 +78,10 @@ perhaps a small one, of parts as large as SIZE. A list, for what is done to all 
             (forms-rates-guards copy) (loop for (name pivot . whole) in (forms-rates-guards rates)
                                             collect (list* name (next pivot) (next whole)))
             (forms-rates-inertia copy) (mapcar #'next (forms-rates-inertia rates))
-            (forms-rates-impulses copy) (loop for lost in (forms-rates-impulses rates)
-                                              collect (mapcar #'next lost))
+            (forms-rates-impulses copy) (loop for (u . gaps) in (forms-rates-impulses rates)
+                                              collect (cons (next u)
+                                                            (loop for (i . gap) in gaps
+                                                                  collect (cons i (next gap)))))
             (forms-rates-integrals copy) (forms-exchanged-integrals rates exchange)))
     copy))
 

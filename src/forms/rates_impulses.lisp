@@ -2,16 +2,17 @@
 ;;; Impulses that rates do not show: where a function that was differentiated jumps, as a potential
 ;;; signum(x) does at x = 0, its derivative is an impulse there, and 0 everywhere else. While rates
 ;;; are derived the derivative of a sign is an operation of its own, of value 0; then it is taken
-;;; out of them, and what stood at it is kept beside: lists (u gap ..), u the argument of the sign,
-;;; the gaps what the rates would be with 1 for the impulse at u, less what they are. Where u
-;;; changes its sign and a gap is not 0 the state jumps. See forms-with-impulses first.
+;;; out of them, and what stood at it is kept beside: lists (u (i . gap) ..), u the argument of the
+;;; sign, i the place of a rate. The gap is the mean of the factor of the impulse while the sign s
+;;; of u goes from -1 to 1, as in a smooth picture of the jump: that of signum(u)^2, 2 s, is 0. All
+;;; signs of multiples of u go with it. See forms-with-impulses first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/branch_slopes" "algebra/impulses" "algebra/program_derivative"
                 "algebra/program_exchange" "algebra/program_from_expressions"
-                "algebra/program_nodes" "algebra/program_record" "forms/equations_as_program"
+                "algebra/program_nodes" "forms/equations_as_program" "forms/fixed"
                 "forms/program_judge" "forms/rates" "forms/value"))
 
 (defmacro forms-with-impulses (&body body)
@@ -36,39 +37,121 @@ that a number stays the same across an impulse is none of theirs."
     (setf (forms-rates-integrals new)
           (remove-if (lambda (integral) (forms-impulse-arguments (cdr integral)))
                      (forms-rates-integrals rates)))
-    (let ((*algebra-impulses* (forms-impulse-values nil 0 nil)))
+    (let ((*algebra-impulses* (lambda (operation u)
+                                (declare (ignore u))
+                                (and (eq operation :impulse) 0))))
       (setq new (forms-exchanged-rates new #'algebra-program-input #'algebra-fault-division)))
     (setf (forms-rates-impulses new)
-          (forms-impulses-in (forms-moving-elements rates) arguments))
+          (forms-impulses-in (forms-right-sides rates) arguments))
     new))
 
 (defun forms-impulses-in (elements arguments)
-  "Lists (u gap ..) for those of ARGUMENTS whose impulses change ELEMENTS."
-  (loop for u in arguments
-        for gaps = (forms-impulse-gaps elements u)
-        when gaps collect (cons u gaps)))
+  "Lists (u (i . gap) ..) of ELEMENTS, in the places i, for ARGUMENTS that are no multiples of
+others."
+  (let ((marks (forms-impulse-marks elements arguments)))
+    (loop for multiples in (forms-multiples arguments)
+          for gaps = (loop for element in elements
+                           for mark in marks
+                           for i from 0
+                           when (loop for (place) in multiples thereis (logbitp place mark))
+                             append (forms-gap-at i element arguments multiples))
+          when gaps collect (cons (nth (car (first multiples)) arguments) gaps))))
 
-(defun forms-moving-elements (rates)
-  "The elements of X, of the cyclic velocities, and of M."
-  (append (loop for (name . value) in (forms-rates-outputs rates)
-                when (member name '($rates $quadratures)) append (algebra-output-elements value))
-          (loop for row in (forms-rates-mass rates) append (mapcar #'cdr row))))
+(defun forms-impulse-marks (elements arguments)
+  "For each of ELEMENTS the number whose binary digits tell which of ARGUMENTS have an impulse in
+it."
+  (let ((marks (make-hash-table)) (places (make-hash-table :test #'eq)))
+    (loop for u in arguments for place from 0 do (setf (gethash u places) place))
+    (flet ((mark (element)
+             (if (algebra-node-p element) (gethash (algebra-node-index element) marks 0) 0)))
+      (dolist (node (algebra-live-nodes elements))
+        (setf (gethash (algebra-node-index node) marks)
+              (if (algebra-operation-p :impulse node)
+                  (ash 1 (gethash (algebra-node-left node) places))
+                  (reduce #'logior (mapcar #'mark (algebra-node-parts node)) :initial-value 0))))
+      (mapcar #'mark elements))))
 
-(defun forms-impulse-values (u impulse sign)
-  "What gives the IMPULSE and the SIGN of U, and 0 for other impulses."
-  (lambda (operation x)
-    (cond ((eq operation :impulse) (if (eq x u) impulse 0))
-          ((eq x u) sign))))
+;;; Multiples: 1 - x and x - 1 have one border.
 
-(defun forms-impulse-gaps (elements u)
-  "By how much ELEMENTS change with 1 for the impulse at U, on both sides of it, without those that
-do not."
-  (flet ((at (impulse sign)
-           (let ((*algebra-impulses* (forms-impulse-values u impulse sign)))
-             (algebra-exchanged elements #'algebra-program-input))))
-    (remove-if (lambda (gap) (forms-nought-p (list gap) (forms-new-point t)))
-               (loop for sign in '(1 -1)
-                     append (mapcar #'algebra-program-subtract (at 1 sign) (at 0 sign))))))
+(defun forms-multiples (arguments)
+  "Groups ((place . c) ..) of places of ARGUMENTS, each c times the first of its group; c is the
+quotient at two random points."
+  (let* ((points (list (forms-new-point t) (forms-other-point arguments)))
+         (values (loop for u in arguments
+                       collect (loop for point in points
+                                     collect (forms-value-or-nil u point))))
+         (groups '()))
+    (loop for value in values
+          for place from 0
+          do (let ((group (find-if (lambda (group)
+                                     (forms-multiple (nth (car (first group)) values) value))
+                                   groups)))
+               (if group
+                   (setf (cdr (last group))
+                         (list (cons place (forms-multiple (nth (car (first group)) values)
+                                                           value))))
+                   (push (list (cons place 1)) groups))))
+    (reverse groups)))
+
+(defun forms-other-point (elements)
+  "A point with other values than the random ones for the inputs of ELEMENTS."
+  (let ((point (forms-new-point t)))
+    (dolist (name (algebra-inputs-of elements) point)
+      (let ((value (forms-random-value name)))
+        (forms-set-place name (+ (forms-fixed 5/7) (forms-fixed-times value value)) point)))))
+
+(defun forms-value-or-nil (element point)
+  (first (catch 'forms-no-value (forms-program-values (list element) point))))
+
+(defun forms-multiple (values others)
+  "The number c with OTHERS = c VALUES, at two points; nil where there is none."
+  (destructuring-bind ((a b) (c d)) (list values others)
+    (and a b c d (/= a 0) (/= b 0) (/= c 0)
+         (forms-negligible-p (- (forms-fixed-times a d) (forms-fixed-times b c)))
+         (rationalize (coerce (/ c a) 'double-float)))))
+
+;;; Gaps
+
+(defparameter *forms-signs-on-the-way* '((-1 . 1/8) (-1/3 . 3/8) (1/3 . 3/8) (1 . 1/8))
+  "Values of a sign and weights: Simpson's rule of 3/8, without 0.")
+
+(defun forms-gap-at (i element arguments multiples)
+  "((I . gap)) of ELEMENT, or nothing where the gap vanishes."
+  (let ((gap (forms-mean-gap (forms-with-open-side element arguments multiples))))
+    (unless (forms-nought-p (list gap) (forms-new-point t)) (list (cons i gap)))))
+
+(defun forms-mean-gap (open)
+  "The mean of the factor of the impulse in OPEN; 1 where it has no value on the way."
+  (or (first (core-attempt
+              (lambda ()
+                (reduce #'algebra-program-add
+                        (loop for (sign . weight) in *forms-signs-on-the-way*
+                              collect (algebra-program-multiply
+                                       weight (algebra-program-subtract
+                                               (forms-at-side open 1 sign)
+                                               (forms-at-side open 0 sign))))))))
+      1))
+
+(defun forms-with-open-side (element arguments multiples)
+  "ELEMENT with the names forms-impulse-factor and forms-side for the impulse and the sign of the
+first argument of MULTIPLES, those of the others by these, 0 for all other impulses; the square of
+a sign is 1."
+  (let* ((impulse (algebra-program-input 'forms-impulse-factor))
+         (side (algebra-program-input 'forms-side)) (other-side (algebra-program-negate side))
+         (*algebra-impulses*
+           (lambda (operation u)
+             (let ((c (cdr (find u multiples :key (lambda (pair) (nth (car pair) arguments))))))
+               (case operation
+                 (:impulse (if c (algebra-program-divide impulse (abs c)) 0))
+                 (:sign (and c (if (plusp c) side other-side)))
+                 (:absolute (and (member u (list side other-side)) 1)))))))
+    (first (algebra-exchanged (list element) #'algebra-program-input))))
+
+(defun forms-at-side (element impulse side)
+  (let ((*algebra-impulses* nil))
+    (first (algebra-exchanged (list element)
+                              (algebra-exchange-by (list (cons 'forms-impulse-factor impulse)
+                                                         (cons 'forms-side side)))))))
 
 ;;; For Maxima. Equations x' = J dH/dx were derived without them.
 

@@ -6,7 +6,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_from_expressions" "algebra/program_nodes" "forms/agreement"
-                "forms/fixed" "forms/program_judge" "forms/rates" "forms/value"))
+                "forms/fixed" "forms/program_judge" "forms/rates" "forms/rates_impulses"
+                "forms/value"))
 
 (defun forms-check-elements (elements expressions)
   "The values of ELEMENTS against those of the EXPRESSIONS that they were made from."
@@ -29,10 +30,11 @@
 (defun $forms_rates_of_equations (variables expressions matrix)
   "M x' = X: MATRIX is a list of rows, or false for the identity."
   (with-algebra-program
-    (let ((elements (mapcar #'algebra-program-element (cdr expressions))))
-      (forms-check-elements elements (cdr expressions))
-      (make-forms-rates
-       :program *algebra-program* :states (cdr variables) :pairs '()
-       :outputs (list (cons '$rates (cons :list elements)))
-       :mass (and matrix (forms-sparse-elements (cdr matrix)))
-       :angles (forms-angles (cdr variables) elements)))))
+    (forms-with-impulses
+      (let ((elements (mapcar #'algebra-program-element (cdr expressions))))
+        (forms-check-elements elements (cdr expressions))
+        (make-forms-rates
+         :program *algebra-program* :states (cdr variables) :pairs '()
+         :outputs (list (cons '$rates (cons :list elements)))
+         :mass (and matrix (forms-sparse-elements (cdr matrix)))
+         :angles (forms-angles (cdr variables) elements))))))

@@ -1,80 +1,134 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Impulses that the right-hand side of a run does not show (forms/rates_impulses.lisp): the run
-;;; ends where the argument of a sign that was differentiated leaves its side, unless what stood at
-;;; the impulse vanishes there, as x^2 does where x^2*unit_step(x) begins. See
-;;; numerics-impulse-part first.
+;;; Impulses that the right-hand side of a run does not show (forms/rates_impulses.lisp). Where u
+;;; changes its sign the states jump by gap/|u'|, u' being the rate of u; a run ends there unless
+;;; that is below what its tolerance lets count, as for x^2*unit_step(x), whose gap is x^2. Where
+;;; u' vanishes with u, as that of x^3 does, the jump is seen from beside. The step is cut at the
+;;; zero, so that events before it are met. See numerics-impulse-parts first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes" "forms/rates" "numerics/element_words"
-                "numerics/event_samples" "numerics/events" "numerics/problem"
-                "numerics/program" "numerics/routine"))
+  (core-require "algebra/program_nodes" "numerics/element_words" "numerics/event_samples"
+                "numerics/events" "numerics/problem" "numerics/program" "numerics/routine"))
 
-(defparameter *numerics-nothing-lost* 1d-9
-  "A gap is 0, as far as rounding tells, below this share of the largest that was seen.")
+(defstruct numerics-impulse
+  u                                ; an element, no number
+  (first 0 :type fixnum)           ; of its gaps in the vector of all
+  places)                          ; of the states that jump
 
 (defstruct numerics-impulses
-  lost                           ; lists (u gap ..), u no number
-  events                         ; of the u
-  gaps                           ; (moment x out), all in one vector
+  list                             ; of numerics-impulse
+  events                           ; of the u
+  gaps                             ; (moment x out): all gaps
   (values (numerics-zeros 0) :type numerics-vector)
-  (largest (numerics-zeros 0) :type numerics-vector))
+  allowed                          ; (state place): the jump that does not count
+  (cut nil))                       ; the event at which a step was cut, and its impulse
 
-(defun numerics-new-impulses (lost program)
-  "What looks for impulses LOST, as rates have them, in PROGRAM; nil where there are none."
-  (let ((lost (remove-if #'numberp lost :key #'first))
-        (n (length (numerics-program-names program))))
+(defun numerics-new-impulses (lost program allowed)
+  "What looks for impulses LOST, as rates have them, in PROGRAM; nil where there are none. ALLOWED
+is a function (state place)."
+  (let ((lost (remove-if (lambda (one) (or (numberp (first one)) (null (rest one)))) lost))
+        (n (length (numerics-program-names program))) (first 0))
     (when lost
       (with-numerics-program program
-        (let* ((arguments (mapcar #'first lost)) (gaps (loop for (nil . gaps) in lost append gaps))
-               (count (length gaps)))
-          (make-numerics-impulses
-           :lost lost
-           :events (numerics-new-events (numerics-routine program arguments) n
-                                        (mapcar (constantly 0) lost)
-                                        (mapcar (constantly nil) lost) nil)
-           :gaps (numerics-routine program gaps)
-           :values (numerics-zeros count) :largest (numerics-zeros count)))))))
+        (make-numerics-impulses
+         :list (loop for (u . gaps) in lost
+                     collect (make-numerics-impulse :u u :first first
+                                                    :places (mapcar #'car gaps))
+                     do (incf first (length gaps)))
+         :events (numerics-new-events (numerics-routine program (mapcar #'first lost)) n
+                                      (mapcar (constantly 0) lost)
+                                      (mapcar (constantly nil) lost) nil)
+         :gaps (numerics-routine program (loop for (nil . gaps) in lost
+                                               append (mapcar #'cdr gaps)))
+         :values (numerics-zeros first) :allowed allowed)))))
 
-(defun numerics-gaps-at (impulses moment state)
-  "The gaps there; the largest are noted."
-  (let ((values (numerics-impulses-values impulses)) (largest (numerics-impulses-largest impulses)))
+;;; How large the jump is
+
+(defun numerics-beside (step)
+  "The share of STEP that is looked at on both sides of a zero: short, but more than rounding."
+  (max 1d-5 (min 0.25d0 (/ (* 1d-8 (1+ (abs (aref (numerics-step-from step) 0))))
+                           (abs (numerics-step-length step))))))
+
+(defun numerics-u-at (impulses step place share)
+  (aref (numerics-events-at (numerics-impulses-events impulses) step (max 0d0 (min 1d0 share)))
+        place))
+
+(defun numerics-rise-about (impulses step place share width)
+  "By how much the u in PLACE rises about SHARE of STEP, a time."
+  (let ((from (max 0d0 (- share width))) (to (min 1d0 (+ share width))))
+    (/ (- (numerics-u-at impulses step place to) (numerics-u-at impulses step place from))
+       (* (- to from) (abs (numerics-step-length step))))))
+
+(defun numerics-jump-counts-p (impulses step place share rise)
+  "Whether a state jumps by more than is allowed, going by the gaps at SHARE of STEP and the RISE of
+u."
+  (let* ((impulse (nth place (numerics-impulses-list impulses))) (moment (numerics-zeros 2))
+         (values (numerics-impulses-values impulses))
+         (state (numerics-step-state step share (copy-seq (numerics-step-before step)))))
+    (numerics-step-moment step share moment)
     (funcall (the function (numerics-impulses-gaps impulses)) moment state values)
-    (map-into largest (lambda (a b) (if (> (abs b) a) (abs b) a)) largest values)
-    values))
+    (loop for k from (numerics-impulse-first impulse)
+          for i in (numerics-impulse-places impulse)
+          thereis (> (abs (aref values k))
+                     (* (abs rise) (funcall (numerics-impulses-allowed impulses) state i))))))
 
-(defun numerics-impulse-at-p (impulses place)
-  "Whether one of the gaps of PLACE, which have just been computed, is none by rounding alone."
-  (let ((first (loop for (nil . gaps) in (subseq (numerics-impulses-lost impulses) 0 place)
-                     sum (length gaps)))
-        (count (length (cdr (nth place (numerics-impulses-lost impulses))))))
-    (loop for k from first below (+ first count)
-          thereis (> (abs (aref (numerics-impulses-values impulses) k))
-                     (* *numerics-nothing-lost* (aref (numerics-impulses-largest impulses) k))))))
+(defun numerics-impulse-at-p (impulses step place share)
+  "Whether an impulse counts at the zero of the u in PLACE at SHARE of STEP."
+  (let* ((near (numerics-beside step))
+         (rise (numerics-rise-about impulses step place share near))
+         (wide (numerics-rise-about impulses step place share (* 2 near))))
+    (if (> (abs wide) (* 1.5d0 (abs rise)))
+        (loop for beside in (list (- share near) (+ share near))
+              thereis (and (<= 0d0 beside 1d0)
+                           (numerics-jump-counts-p
+                            impulses step place beside
+                            (numerics-rise-about impulses step place beside (/ near 8)))))
+        (numerics-jump-counts-p impulses step place share rise))))
 
-(defun numerics-impulse-in (impulses step &optional end)
-  "The argument of a sign at whose zero in STEP, before the time END, an impulse is lost, or nil."
+;;; Along a run
+
+(defun numerics-impulse-in (impulses step end)
+  "The first event in STEP at which an impulse counts, and its u; nil where there is none. One at
+the time END, as far as rounding tells, is none."
   (let ((events (numerics-impulses-events impulses)))
-    (numerics-gaps-at impulses (numerics-step-to step) (numerics-step-after step))
-    (loop for (share place) in (numerics-zeros-of-step events step)
-          for event = (numerics-event-of events step share place 0)
-          do (numerics-gaps-at impulses (numerics-event-moment event) (numerics-event-state event))
-          when (and (not (eql end (aref (numerics-event-moment event) 0)))
-                    (numerics-impulse-at-p impulses place))
-            do (return (first (nth place (numerics-impulses-lost impulses)))))))
+    (unless (= 0d0 (numerics-step-length step))
+      (loop for (share place) in (numerics-zeros-of-step events step)
+            for event = (numerics-event-of events step share place 0)
+            when (and (not (numerics-at-end-p event step end))
+                      (numerics-impulse-at-p impulses step place share))
+              do (return (list event share
+                               (numerics-impulse-u
+                                (nth place (numerics-impulses-list impulses)))))))))
 
-(defun numerics-impulse-part (impulses end found)
-  "A part of an observer that calls FOUND with a phrase and ends the run before a step in which an
-impulse is lost; one at the END of the run is none of it."
-  (lambda (step)
-    (let ((u (numerics-impulse-in impulses step end)))
-      (when u
-        (funcall found (format nil "where ~a = 0 a function that the equations are derivatives of ~
-                                    jumps, and they do not show the impulse; give a smooth one"
-                               (or (numerics-element-words u) "the argument of a sign")))
-        (numerics-undo-step step)
-        :stop))))
+(defun numerics-at-end-p (event step end)
+  (and end
+       (<= (abs (- end (aref (numerics-event-moment event) 0)))
+           (* 1d-12 (+ (abs end) (abs (numerics-step-length step)))))))
+
+(defun numerics-impulse-parts (impulses end stopped found)
+  "Two parts of an observer, before and after that which looks for events: the first cuts a step at
+an impulse, the second calls FOUND with a phrase where the step ends there, and no event at which
+the run was to stop has STOPPED it."
+  (list
+   (lambda (step)
+     (let ((lost (numerics-impulse-in impulses step end)))
+       (setf (numerics-impulses-cut impulses) lost)
+       (when lost (numerics-end-step step (second lost) (first lost)))
+       nil))
+   (lambda (step)
+     (let ((cut (numerics-impulses-cut impulses)))
+       (when (and cut
+                  (= (aref (numerics-step-to step) 0)
+                     (aref (numerics-event-moment (first cut)) 0)))
+         (unless (funcall stopped)
+           (funcall found (numerics-impulse-words (third cut))))
+         :stop)))))
+
+(defun numerics-impulse-words (u)
+  (format nil "where ~a = 0 a function that the equations are derivatives of jumps, and they do ~
+               not show the impulse; give a smooth one"
+          (or (numerics-element-words u) "an argument of its signs")))
 
 ;;; In a window of a plane, along lines through it
 
@@ -87,8 +141,7 @@ impulse is lost; one at the END of the run is none of it."
                                                before after))))
 
 (defun numerics-impulse-in-window (impulses lows highs)
-  "The argument of a sign at whose zero between LOWS and HIGHS, of two states, an impulse is lost;
-or nil."
+  "The u at whose zero between LOWS and HIGHS, of two states, an impulse is lost; or nil."
   (flet ((at (u v) (map 'numerics-vector (lambda (share low high) (+ low (* share (- high low))))
                         (list u v) lows highs)))
     (loop for k to 20
@@ -96,13 +149,5 @@ or nil."
           thereis (loop for (before after) in (list (list (at 0d0 share) (at 1d0 share))
                                                     (list (at share 0d0) (at share 1d0)))
                         do (setf (numerics-events-sides (numerics-impulses-events impulses)) nil)
-                        thereis (numerics-impulse-in
-                                 impulses (numerics-straight-step before after))))))
-
-(defun numerics-refuse-impulses (rates)
-  "An error where impulses may be lost, for what does not look on."
-  (let ((lost (find-if-not #'numberp (forms-rates-impulses rates) :key #'first)))
-    (when lost
-      (core-error "where ~a = 0 a function that the equations are derivatives of jumps or has a ~
-                   corner, and series do not see it; leave digits out, or give a smooth one"
-                  (or (numerics-element-words (first lost)) "the argument of a sign")))))
+                        thereis (third (numerics-impulse-in
+                                        impulses (numerics-straight-step before after) nil))))))

@@ -8,8 +8,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_nodes" "forms/dynamics"
-                "forms/rates" "numerics/element_words" "numerics/lost_impulses" "numerics/native"
-                "numerics/problem" "numerics/program" "numerics/rate_program"
+                "forms/rates" "numerics/element_words" "numerics/lost_impulses"
+                "numerics/native" "numerics/problem" "numerics/program" "numerics/rate_program"
                 "numerics/rates_problem" "numerics/routine" "numerics/run"
                 "numerics/run_options"))
 
@@ -219,15 +219,26 @@ equations may name velocities and coordinates that are none of the states here."
      :forwards (numerics-plane-problem names plane)
      :backwards (numerics-plane-problem names (mapcar #'algebra-program-negate plane)))))
 
+(defun numerics-gaps-in-plane (gaps rates axes exchange)
+  "GAPS, (i . gap), of the states of AXES."
+  (loop for (i . gap) in gaps
+        for place = (position (nth i (forms-rates-states rates)) axes
+                              :key #'numerics-axis-name :test #'alike1)
+        when place collect (cons place (first (algebra-exchanged (list gap) exchange)))))
+
 (defun numerics-warn-of-lost-impulses (rates axes held)
   "A warning where trajectories cross a jump of what the equations of RATES are derivatives of."
   (let* ((exchange (algebra-exchange-by (numerics-held-elements held)))
          (program (make-numerics-program :algebra *algebra-program*
                                          :names (mapcar #'numerics-axis-name axes)))
          (impulses (numerics-new-impulses
-                    (loop for lost in (forms-rates-impulses rates)
-                          collect (algebra-exchanged lost exchange))
-                    program))
+                    (loop for (u . gaps) in (forms-rates-impulses rates)
+                          collect (cons (first (algebra-exchanged (list u) exchange))
+                                        (numerics-gaps-in-plane gaps rates axes exchange)))
+                    program
+                    (lambda (state i)
+                      (declare (ignore state))
+                      (* 1d-6 (numerics-axis-width (nth i axes))))))
          (u (and impulses
                  (numerics-with-masked-traps
                    (numerics-impulse-in-window

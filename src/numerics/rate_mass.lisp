@@ -48,9 +48,23 @@
         (dolist (group (numerics-groups rows))
           (unless (numerics-settle-group copy group (numerics-group-rows group rows) right solved)
             (push group kept)))
-        (setf (forms-rates-mass copy) (and kept (numerics-kept-rows (reverse kept) rows)))
+        (setf (forms-rates-mass copy) (and kept (numerics-kept-rows (reverse kept) rows))
+              (forms-rates-impulses copy) (numerics-settled-impulses rates solved))
         (forms-set-right-sides copy (coerce right 'list))
         copy)))
+
+(defun numerics-settled-impulses (rates solved)
+  "The impulses of RATES, their gaps divided as X is."
+  (let ((n (length (forms-rates-states rates))))
+    (loop for (u . gaps) in (forms-rates-impulses rates)
+          collect (let ((copy (copy-forms-rates rates)))
+                    (setf (forms-rates-impulses copy) '() (forms-rates-guards copy) '())
+                    (forms-set-right-sides copy (loop for i below n
+                                                      collect (or (cdr (assoc i gaps)) 0)))
+                    (cons u (loop for gap in (forms-right-sides
+                                              (numerics-settled-rates copy solved))
+                                  for i from 0
+                                  unless (eql gap 0) collect (cons i gap)))))))
 
 (defun numerics-settle-group (rates group rows right solved)
   "Divides the elements of GROUP in the vector RIGHT; nil where the group stays."

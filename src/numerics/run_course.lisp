@@ -7,9 +7,10 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "forms/rates" "numerics/back_to_constraints" "numerics/dead_points"
                 "numerics/decimals" "numerics/drifts" "numerics/element_words"
-                "numerics/events" "numerics/lost_impulses" "numerics/jacobian" "numerics/native"
-                "numerics/observers" "numerics/poles" "numerics/problem" "numerics/routine"
-                "numerics/run" "numerics/run_options" "numerics/switches"))
+                "numerics/event_samples" "numerics/events" "numerics/jacobian"
+                "numerics/lost_impulses" "numerics/native" "numerics/observers"
+                "numerics/poles" "numerics/problem" "numerics/routine" "numerics/run"
+                "numerics/run_options" "numerics/sparse" "numerics/switches"))
 
 ;;; Methods
 
@@ -120,31 +121,58 @@ steps; for others a part of an observer, or nil."
           (t (numerics-switch-part
               switches (lambda (trouble) (setf (numerics-simulation-fault run) trouble)))))))
 
-(defun numerics-run-impulse-part (run)
+(defun numerics-allowed-jump (run)
+  "A function (state place): the jump of a state, times M where RUN has one, that does not count."
+  (let* ((problem (numerics-simulation-problem run)) (mass (numerics-problem-mass problem))
+         (controls (numerics-simulation-controls run)) (scales (numerics-controls-scales controls))
+         (share (* 10 (numerics-controls-relative controls))))
+    (flet ((sizes (state) (map 'numerics-vector (lambda (x scale) (* share (+ (abs x) scale)))
+                               state scales)))
+      (if mass
+          (lambda (state i)
+            (let ((out (numerics-zeros (length state))))
+              (numerics-multiply (numerics-matrix-pattern mass)
+                                 (map 'numerics-vector #'abs (numerics-matrix-values mass))
+                                 (sizes state) out)
+              (aref out i)))
+          (lambda (state i) (* share (+ (abs (aref state i)) (aref scales i))))))))
+
+(defun numerics-run-impulse-parts (run)
+  "Two parts of an observer, or (nil nil)."
   (let ((impulses (numerics-new-impulses
-                    (forms-rates-impulses (numerics-simulation-rates run))
-                    (numerics-simulation-program run))))
-    (and impulses
-         (numerics-impulse-part
-          impulses (numerics-controls-end (numerics-simulation-controls run))
-          (lambda (trouble) (setf (numerics-simulation-fault run) trouble))))))
+                   (forms-rates-impulses (numerics-simulation-rates run))
+                   (numerics-simulation-program run) (numerics-allowed-jump run))))
+    (if impulses
+        (numerics-impulse-parts
+         impulses (numerics-controls-end (numerics-simulation-controls run))
+         (lambda () (numerics-stopped-by-event-p run))
+         (lambda (trouble) (setf (numerics-simulation-fault run) trouble)))
+        '(nil nil))))
+
+(defun numerics-stopped-by-event-p (run)
+  "Whether the last event of RUN was one at which it was to stop."
+  (let* ((events (numerics-simulation-events run))
+         (last (and events (first (numerics-events-found events)))))
+    (and last (nth (numerics-event-place last) (numerics-events-stops events)))))
 
 (defun numerics-run-observer (run)
-  (numerics-observer
-   (remove nil
-           (list (and (numerics-simulation-constraints run)
-                      (numerics-projection-part (numerics-simulation-constraints run)))
-                 (and (numerics-simulation-constraints run) (numerics-run-dead-point-part run))
-                 (and (numerics-simulation-guards run) (numerics-guard-part run))
-                 (numerics-run-pole-part run)
-                 (numerics-run-switch-part run)
-                 (numerics-run-impulse-part run)
-                 (and (numerics-simulation-events run)
-                      (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
-                 (and (numerics-simulation-drifts run)
-                      (lambda (step) (numerics-see-drifts (numerics-simulation-drifts run) step)))
-                 (lambda (step) (numerics-see-rows (numerics-simulation-rows run) step))
-                 (numerics-progress-part (numerics-simulation-controls run))))))
+  (destructuring-bind (cut-at-impulse judge-impulse) (numerics-run-impulse-parts run)
+    (numerics-observer
+     (remove nil
+             (list (and (numerics-simulation-constraints run)
+                        (numerics-projection-part (numerics-simulation-constraints run)))
+                   (and (numerics-simulation-constraints run) (numerics-run-dead-point-part run))
+                   (and (numerics-simulation-guards run) (numerics-guard-part run))
+                   (numerics-run-pole-part run)
+                   (numerics-run-switch-part run)
+                   cut-at-impulse
+                   (and (numerics-simulation-events run)
+                        (lambda (step) (numerics-see-events (numerics-simulation-events run) step)))
+                   judge-impulse
+                   (and (numerics-simulation-drifts run)
+                        (lambda (step) (numerics-see-drifts (numerics-simulation-drifts run) step)))
+                   (lambda (step) (numerics-see-rows (numerics-simulation-rows run) step))
+                   (numerics-progress-part (numerics-simulation-controls run)))))))
 
 (defparameter *numerics-share-of-time* 9/10
   "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")

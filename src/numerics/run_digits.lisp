@@ -8,9 +8,10 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_record" "algebra/size" "core/bigfloats" "forms/rates"
-                "numerics/big_values" "numerics/decimals" "numerics/lost_impulses" "numerics/native"
-                "numerics/problem" "numerics/program" "numerics/run" "numerics/run_integrals"
-                "numerics/run_options" "numerics/run_report" "numerics/taylor"))
+                "numerics/big_values" "numerics/decimals" "numerics/native" "numerics/problem"
+                "numerics/program" "numerics/run" "numerics/run_course"
+                "numerics/run_integrals" "numerics/run_options" "numerics/run_report"
+                "numerics/taylor"))
 
 (defparameter *numerics-most-digits* 1000)
 
@@ -32,10 +33,22 @@
                (core-error "with digits = ~d the rows come from Taylor series, two runs of which ~
                             agree; ~a has no place there, leave it out" digits option)))))
 
+(defun numerics-check-impulses (run)
+  "An error where a run in double-float numbers ends at an impulse, which series do not see."
+  (when (forms-rates-impulses (numerics-simulation-rates run))
+    (let ((again (numerics-run-again
+                  run (numerics-copied-controls (numerics-simulation-controls run) 1d-8
+                                                (numerics-controls-end
+                                                 (numerics-simulation-controls run)))
+                  (numerics-simulation-wishes run))))
+      (numerics-carry-out again)
+      (when (numerics-simulation-fault again)
+        (core-error "~a" (numerics-simulation-fault again))))))
+
 (defun numerics-long-rows (run start span began)
   "The rows of RUN from START, exact values, over SPAN, as a Maxima list; the derivation of RUN
 began at BEGAN."
-  (numerics-refuse-impulses (numerics-simulation-rates run))
+  (numerics-check-impulses run)
   (let* ((wishes (numerics-simulation-wishes run)) (digits (numerics-wishes-digits wishes))
          (times (numerics-exact-times (numerics-wishes-points wishes) (numerics-read-span span))))
     (numerics-check-exact-start run start (first times) digits)

@@ -35,10 +35,11 @@
 (defun numerics-reference-part (run)
   "The part of an observer that brings states of RUN back to constraints, and ends it where an
 impulse is lost; nil where there is nothing to do."
-  (let ((parts (remove nil (list (and (numerics-simulation-constraints run)
+  (let* ((impulse-parts (numerics-run-impulse-parts run))
+         (parts (remove nil (list (and (numerics-simulation-constraints run)
                                       (numerics-projection-part
                                        (numerics-simulation-constraints run)))
-                                 (numerics-run-impulse-part run)))))
+                                 (first impulse-parts) (second impulse-parts)))))
     (and parts (numerics-observer parts))))
 
 (defun $numerics_reference_solution (trial)
