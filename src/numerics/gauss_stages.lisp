@@ -214,7 +214,7 @@ OUT; at its end RUN knows how much they changed, and whether all are finite."
     (incf (numerics-counts-rates (numerics-gauss-run-counts run)) (numerics-gauss-run-stages run))))
 
 (defun numerics-gauss-iterate (run state)
-  "Sweeps until there is no further improvement, or the next would bring less than a thousandth of
+  "Sweeps until there is no further improvement, or the next would bring less than 3 thousandths of
 a last place, going by the slower of the last two; nil, or what went wrong. Changes may shrink in
 every second sweep only: one without improvement ends it at the last place, two elsewhere."
   (let ((best 0d0) (worse 0) (last 0d0) (rate 0d0) (slower 1d0))
@@ -225,7 +225,7 @@ every second sweep only: one without improvement ends it at the last place, two 
       (let ((change (numerics-gauss-run-change run)))
         (when (> sweep 0) (setq slower (max rate (/ change last)) rate (/ change last)))
         (cond ((not (numerics-gauss-run-finite run)) (return :not-finite))
-              ((or (= change 0d0) (< (* slower change) 1d-19)) (return nil))
+              ((or (= change 0d0) (< (* slower change) 3d-19)) (return nil))
               ((or (= sweep 0) (< change best)) (setq best change worse 0))
               ((or (< change 1d-15) (and (< best 1d-9) (= worse 1))) (return nil))
               (t (incf worse)))
