@@ -42,6 +42,8 @@ impulse is lost; nil where there is nothing to do."
                                  (first impulse-parts) (second impulse-parts)))))
     (and parts (numerics-observer parts))))
 
+(defparameter *numerics-share-of-reference* 1/2 "Of the time that a call has left.")
+
 (defun $numerics_reference_solution (trial)
   "Record: method, digits, errors of each state, rows [t, x1, ..]; one that its time did not suffice
 for is a part."
@@ -54,8 +56,6 @@ for is a part."
     (unless (numerics-reference-rows reference)
       (core-warn "~a" (numerics-reference-method reference)))
     (numerics-reference-record reference)))
-
-(defparameter *numerics-share-of-reference* 1/2 "Of the time that a call has left.")
 
 (defun numerics-reference-record (reference)
   (let ((digits (numerics-reference-digits reference)))
