@@ -231,8 +231,8 @@
         (t (algebra-argument-form argument))))
 
 (defun algebra-rename-dummy (e)
-  "The dummy variable becomes s, or s1, s2, .. where the rest of the noun has s, bound too, or
-something is assumed of it: it would hold of the variable."
+  "The dummy variable becomes s, or s1, s2, .. where the rest of the noun has s, bound too, where
+something is assumed of it, which would hold of the variable, or s is free in the call."
   (destructuring-bind (integrand variable . limits) (cdr e)
     (let* ((own (gensym "$S"))
            (integrand (maxima-substitute own variable
@@ -252,7 +252,10 @@ something is assumed of it: it would hold of the variable."
 
 (defun algebra-free-dummy (variable e)
   (loop for name in '($s $s1 $s2 $s3 $s4 $s5)
-        when (and (not (among name e)) (not ($core_assumed name))) return name
-        finally (return (if (or (among variable e) ($core_assumed variable))
+        unless (algebra-taken-p name e) return name
+        finally (return (if (algebra-taken-p variable e)
                             ($core_unused_name '$s e)
                             variable))))
+
+(defun algebra-taken-p (name e)
+  (or (among name e) ($core_assumed name) (member name *core-free-names*)))

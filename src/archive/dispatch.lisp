@@ -16,6 +16,7 @@
   "What a public function does: NAME applied to ARGUMENTS, errors reported in its name."
   (let ((*core-function* name) (*core-place* nil) (*core-warnings* '())
         (*core-progress* *core-progress*) (*core-too-large* nil) (*core-names* '())
+        (*core-free-names* '())
         (*core-has-parameters* t) (*core-unsaved* nil)
         (*core-cheaper* nil) (*core-later* '()) (*core-size* *core-size*)
         (*core-partial* nil) (*core-afterwards* '()))
@@ -182,6 +183,18 @@ that a solution names are no names of its own."
           (note-all (archive-key-text (second entry)) (third entry)))))
     names))
 
+(defun archive-free-names (call)
+  "The names that are free in what CALL was given and in its description."
+  (let ((names '()))
+    (flet ((note (key value)
+             (setq names (union (core-free-names value (equal key "laws")) names))))
+      (loop for key being the hash-keys of (archive-call-given call) using (hash-value value)
+            do (note key value))
+      (when (archive-call-archive call)
+        (dolist (entry (cdr (archive-description (archive-call-archive call))))
+          (note (archive-key-text (second entry)) (third entry)))))
+    names))
+
 (defun archive-has-parameters-p (call)
   "Whether the system of CALL has names that are given no motion."
   (let ((archive (archive-call-archive call)))
@@ -214,6 +227,7 @@ that a solution names are no names of its own."
   "The value of the call's target, computed in the guard; new steps are saved, and what the call
 does is done. A TRIAL does not."
   (setq *core-names* (archive-call-names call)
+        *core-free-names* (archive-free-names call)
         *core-has-parameters* (lambda () (archive-has-parameters-p call))
         *core-unsaved* (not (archive-saves-p call)))
   (archive-refuse-property-words *core-names*)

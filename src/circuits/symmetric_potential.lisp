@@ -10,7 +10,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/factoring" "circuits/coefficients" "circuits/element_laws"
                 "circuits/elements" "circuits/source_impulses" "circuits/tableau"
-                "circuits/tableau_equations" "circuits/tableau_reduction"))
+                "circuits/tableau_equations" "circuits/tableau_reduction" "forms/exchange"))
 
 (defun $circuits_symmetric_potential (solution)
   (let* ((states (circuits-solution-states solution))
@@ -152,7 +152,7 @@
   "From the argument with all states zero."
   (let ((at-rest now))
     (dolist (name (circuits-all-state-names solution))
-      (setq at-rest (maxima-substitute 0 name at-rest)))
+      (setq at-rest ($forms_exchange at-rest `((mlist) ((mequal) ,name 0)))))
     (mfuncall '$circuits_law_integral (circuits-branch-value branch) at-rest now
               (circuits-circuit-laws (circuits-tableau-circuit
                                       (circuits-solution-tableau solution))))))

@@ -83,7 +83,7 @@
             for name = (circuits-branch-state
                         (circuits-branch-at (circuits-solution-tableau solution) k))
             do (unless (freeof name x)
-                 (setq x (maxima-substitute (circuits-row-expression solution row) name x)))
+                 (setq x (circuits-put-value (circuits-row-expression solution row) name x)))
             finally (return (circuits-inside x)))))
 
 (defun circuits-rate-of-state (solution k)

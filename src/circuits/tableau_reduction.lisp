@@ -11,7 +11,7 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/zero" "circuits/coefficients" "circuits/elements"
                 "circuits/linear_ties" "circuits/numbers" "circuits/source_impulses"
-                "circuits/tableau" "circuits/tableau_elimination"))
+                "circuits/tableau" "circuits/tableau_elimination" "forms/exchange"))
 
 (defstruct circuits-solution
   tableau
@@ -185,6 +185,10 @@ branch first; last those that the person's tree keeps independent."
                  (circuits-add-multiple target x other))))
     (push (cons k row) (circuits-solution-dependents solution))))
 
+(defun circuits-put-value (value name x)
+  "X with VALUE for the state NAME."
+  ($forms_exchange x (list '(mlist) (list '(mequal) name value))))
+
 (defun circuits-put-into-values (solution k row rows)
   "An inductance or capacitance that depends on the state of K depends on what that is."
   (let ((name (circuits-branch-state (circuits-branch-at (circuits-solution-tableau solution) k))))
@@ -193,7 +197,7 @@ branch first; last those that the person's tree keeps independent."
             do (unless (or (rationalp x) (freeof name x))
                  (setf (gethash column target)
                        (circuits-inside
-                        (maxima-substitute (circuits-row-expression solution row) name x))))))))
+                        (circuits-put-value (circuits-row-expression solution row) name x))))))))
 
 ;;; Rates of rows
 

@@ -31,6 +31,8 @@
          (every #'core-name-p (cdr head))
          (cdr head))))
 
+(defun $core_occurs (name e) (core-occurs-p name e))
+
 (defun core-occurs-p (name e)
   (if (atom e) (eq name e) (some (lambda (part) (core-occurs-p name part)) (cdr e))))
 
@@ -66,13 +68,65 @@ assumed."
                    ($core_assumed name))
           return name))
 
+;;; What is free. A free name that is put in beneath one that is bound would be taken for it.
+
+(defun core-free-names (e &optional laws)
+  "The names in E that nothing in it binds; LAWS: of what f(s) = .. has its arguments are bound."
+  (let ((found '()))
+    (labels ((note (e bound)
+               (cond ((atom e)
+                      (when (and (core-name-p e) (not (member e bound))) (pushnew e found)))
+                     ((atom (car e)))
+                     ((and laws (core-law-arguments e))
+                      (note (caddr e) (append (cdadr e) bound)))
+                     (t (note-call e bound (core-bound-names e)))))
+             (note-call (e bound own)
+               (note (cadr e) (append own bound))
+               (dolist (part (if own (core-free-parts e) (cddr e))) (note part bound))))
+      (note e '()))
+    found))
+
+(defun core-free-parts (e)
+  "What E, that binds names, has beside them and what they are bound in."
+  (if (eq (caar e) '%at)
+      (mapcar #'caddr (core-equations-of-point (caddr e)))
+      (cdddr e)))
+
+(defvar *core-free-names* '() "The names that are free in what this call was given.")
+
 ;;; Other names. Nothing is simplified before all of them are there.
 
 (defun core-unassumed (e &optional laws)
   "E, in which nothing is assumed of bound names, and none is bound within what binds it; LAWS: of
 arguments of laws neither."
-  (let ((renamed (core-renamed e '() laws)))
-    (if (eq renamed e) e (simplifya renamed nil))))
+  (core-simplified (core-renamed e '() laws) e))
+
+(defun core-simplified (renamed e)
+  (if (eq renamed e) e (simplifya renamed nil)))
+
+(defvar *core-clashing-p* nil
+  "Whether a name must get another in a noun that binds it; nil: where something is assumed of it.")
+
+(defun core-clashing-p (name noun)
+  (if *core-clashing-p* (funcall *core-clashing-p* name noun) ($core_assumed name)))
+
+(defun $core_unbound (e laws)
+  "E, in which no name is bound around a call of one of LAWS whose right sides have it free: with
+f(u) = s*u the s of 'integrate(f(s), s, 0, 1) is another."
+  (let* ((free (loop for law in (cdr laws)
+                     collect (cons ($verbify (caar (cadr law))) (core-free-names law t))))
+         (*core-names* (append (loop for (nil . names) in free append names) *core-names*))
+         (*core-clashing-p* (lambda (name noun)
+                              (loop for (head . names) in free
+                                    thereis (and (member name names)
+                                                 (core-calls-p head (cadr noun)))))))
+    (core-simplified (core-renamed e '() nil) e)))
+
+(defun core-calls-p (head e)
+  (and (consp e)
+       (consp (car e))
+       (or (and (symbolp (caar e)) (eq ($verbify (caar e)) head))
+           (some (lambda (part) (core-calls-p head part)) (cdr e)))))
 
 (defun core-renamed (e around laws)
   "AROUND: what is bound around E."
@@ -96,7 +150,7 @@ arguments of laws neither."
 
 (defun core-noun-renamed (e around)
   (dolist (name (core-bound-names e) e)
-    (when (or (member name around) ($core_assumed name))
+    (when (or (member name around) (core-clashing-p name e))
       (setq e (core-bound-to e name (core-unused-name name e around))))))
 
 (defun core-bound-to (e name new)

@@ -131,6 +131,19 @@ is declared of a name, constant, real, is a name of Maxima's."
                                      (not (core-rounded-p fact))))
                               (cdr (facts1 place)))))
 
+(defparameter *core-telling-kinds*
+  '($integer $even $odd $noninteger $rational $irrational $constant $imaginary)
+  "Declarations that hold of some numbers only.")
+
+(defun core-session-declarations ()
+  "What the session declares of names that changes formulas: kind(n, integer), .."
+  (loop for place in (core-visible-contexts)
+        append (remove-if-not (lambda (fact)
+                                (and (eq (caar fact) '$kind)
+                                     (core-users-name-p (cadr fact))
+                                     (member (caddr fact) *core-telling-kinds*)))
+                              (cdr (facts1 place)))))
+
 (defun core-rounded-p (e)
   "Whether E holds a decimal of more than 15 digits: beside a < %pi/2 Maxima notes a < 1.57079632..,
 which is more than was said."

@@ -138,10 +138,7 @@
   (let ((values (cons '(mlist) (mapcar #'cdr occurring))))
     (if (not (among variable values))
         variable
-        (loop for k from 1
-              for name = ($concat variable '_ k)
-              unless (or (among name body) (among name values) ($core_assumed name))
-                return name))))
+        ($core_unused_name variable (list '(mlist) body values)))))
 
 ;;; Derivatives, indefinite integrals: functions of the VARIABLES, at a point.
 
