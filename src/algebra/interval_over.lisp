@@ -5,7 +5,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/interval"))
+  (core-require "algebra/interval" "algebra/size"))
 
 (defparameter *algebra-most-halvings* 12)
 
