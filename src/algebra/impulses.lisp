@@ -6,7 +6,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/nouns"))
+  (core-require "algebra/nouns" "algebra/piece_relations"))
 
 (defvar *algebra-impulses* nil
   "nil: impulses leave no trace. t: they are an operation :impulse of programs, algebra-impulse of
@@ -43,6 +43,15 @@ expressions. A function (operation u): it gives the element of a program for the
                                :test #'alike1 :count 1))))))))
 
 (defun algebra-pieces-with-signs (pieces)
+  (or (algebra-pieces-expanded pieces #'algebra-with-signs
+                               (lambda (d above below)
+                                 (let ((holds (algebra-step-with-sign d)))
+                                   (add (mul holds above) (mul (sub 1 holds) below)))))
+      (algebra-pieces-in-turn pieces)))
+
+(defun algebra-step-with-sign (d) (div (add 1 (take '(%signum) d)) 2))
+
+(defun algebra-pieces-in-turn (pieces)
   "The sum of the values of PIECES, [condition, value], .., each times 1 where it holds."
   (destructuring-bind ((operator condition value) &rest others) pieces
     (declare (ignore operator))
@@ -51,11 +60,11 @@ expressions. A function (operation u): it gives the element of a program for the
           value
           (let ((holds (algebra-condition-with-signs condition)))
             (add (mul holds value)
-                 (mul (sub 1 holds) (algebra-pieces-with-signs others))))))))
+                 (mul (sub 1 holds) (algebra-pieces-in-turn others))))))))
 
 (defun algebra-condition-with-signs (condition)
   "1 where CONDITION holds, else 0, beside jumps."
-  (flet ((jump (x y) (div (add 1 (take '(%signum) (sub x y))) 2))
+  (flet ((jump (x y) (algebra-step-with-sign (sub x y)))
          (parts () (mapcar #'algebra-condition-with-signs (cdr condition))))
     (cond ((member condition '(t $otherwise)) 1)
           ((atom condition) 0)

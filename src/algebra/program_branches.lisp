@@ -2,13 +2,14 @@
 ;;; Functions with branches in programs, which have no jumps: piecewise([c_1, v_1], ..) is
 ;;;     (s_1 v_1 + (1 - s_1)(s_2 v_2 + ..)) / s,
 ;;; s_k being 1 where the condition c_k holds and else 0, s 1 where one of them does: the quotient
-;;; has no value where none does. Every branch is computed everywhere, so what may have no finite
-;;; value where another branch holds has no place here. See algebra-converted-pieces first.
+;;; has no value where none does; or as algebra/piece_relations.lisp has it. Every branch is
+;;; computed everywhere, so what may have no finite value where another branch holds has no place
+;;; here. See algebra-converted-pieces first.
 
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_nodes"))
+  (core-require "algebra/piece_relations" "algebra/program_nodes"))
 
 (defun algebra-program-positive (x)
   "1 where X is greater than 0, else 0."
@@ -39,6 +40,25 @@
                  (t (core-error "~a has no place in a program" (core-words (list e))))))))))
 
 (defun algebra-converted-pieces (e element)
+  (or (algebra-pieces-expanded (cdr e)
+                               (lambda (value)
+                                 (let ((branch (funcall element value)))
+                                   (algebra-check-branch branch e)
+                                   branch))
+                               (lambda (d above below)
+                                 (algebra-program-choice (funcall element d) above below)))
+      (algebra-converted-in-turn e element)))
+
+(defun algebra-program-choice (d above below)
+  "ABOVE where D is greater than 0, else BELOW."
+  (let ((holds (algebra-program-positive d)))
+    (if (eql above below)
+        above
+        (algebra-program-add
+         (algebra-program-multiply holds above)
+         (algebra-program-multiply (algebra-program-not holds) below)))))
+
+(defun algebra-converted-in-turn (e element)
   (let ((sum 0) (none 1))
     (loop for (nil condition value) in (cdr e)
           for holds = (algebra-converted-condition condition element)
