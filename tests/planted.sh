@@ -20,6 +20,7 @@ normal_forms 150 11|src/analysis/normal_form.lisp|(cons number 2) beta|(cons num
 normal_forms 150 11|src/analysis/neutral_double.mac|algebra_inverse_times(J, -M|algebra_inverse_times(J, M
 places 200 3|src/analysis/vanishing_in_places.mac|then is(algebra_zerop(e) # false)|then false
 places 600 3|src/analysis/vanishing_in_places.mac|'abs then \[first(parts), -first(parts)\]|'abs then [-first(parts)]
+impulses 100 7|src/numerics/run_course.lisp|(share (\* 10 |(share (* 1d12 
 impulses 100 7|src/algebra/program_nodes.lisp|(algebra-slope (algebra-twice-impulse x))|(algebra-slope 0)
 leaves 40 41|src/analysis/variation.mac|N\[k, i\]\*HN|N[k, j]*HN
 leaves 40 41|src/analysis/variation.mac|integrals # \[\] then$|false then

@@ -9,9 +9,12 @@
   (core-require "algebra/nouns" "algebra/piece_relations"))
 
 (defvar *algebra-impulses* nil
-  "nil: impulses leave no trace. t: they are an operation :impulse of programs, algebra-impulse of
-expressions. A function (operation u): it gives the element of a program for the :impulse or the
-:sign of u, nil for what it is by itself.")
+  "Whether impulses leave a trace: the operation :impulse of programs, algebra-impulse of
+expressions.")
+
+(defvar *algebra-sides* nil
+  "nil, or a function (operation u): the element of a program for the :impulse, the :sign or the
+:absolute value of u, nil for what it is by itself. So elements are taken to a side of a jump.")
 
 (setf (get 'algebra-impulse 'grad) '((x) ((algebra-impulse) x)))
 

@@ -176,8 +176,8 @@
 (defun algebra-program-function (operation x)
   "The function OPERATION of one argument X, a sign drawn outwards where it is odd or even."
   (let ((row (algebra-function-of operation)))
-    (cond ((and (functionp *algebra-impulses*) (member operation '(:impulse :sign :absolute))
-                (funcall *algebra-impulses* operation x)))
+    (cond ((and *algebra-sides* (member operation '(:impulse :sign :absolute))
+                (funcall *algebra-sides* operation x)))
           ((and (eql x 0) (algebra-function-at-zero row)))
           ((and (algebra-function-parity row) (algebra-opposite x))
            (let ((node (algebra-program-function operation (algebra-opposite x))))

@@ -37,9 +37,9 @@ that a number stays the same across an impulse is none of theirs."
     (setf (forms-rates-integrals new)
           (remove-if (lambda (integral) (forms-impulse-arguments (cdr integral)))
                      (forms-rates-integrals rates)))
-    (let ((*algebra-impulses* (lambda (operation u)
-                                (declare (ignore u))
-                                (and (eq operation :impulse) 0))))
+    (let ((*algebra-sides* (lambda (operation u)
+                             (declare (ignore u))
+                             (and (eq operation :impulse) 0))))
       (setq new (forms-exchanged-rates new #'algebra-program-input #'algebra-fault-division)))
     (setf (forms-rates-impulses new)
           (forms-impulses-in (forms-right-sides rates) arguments))
@@ -138,7 +138,7 @@ first argument of MULTIPLES, those of the others by these, 0 for all other impul
 a sign is 1."
   (let* ((impulse (algebra-program-input 'forms-impulse-factor))
          (side (algebra-program-input 'forms-side)) (other-side (algebra-program-negate side))
-         (*algebra-impulses*
+         (*algebra-sides*
            (lambda (operation u)
              (let ((c (cdr (find u multiples :key (lambda (pair) (nth (car pair) arguments))))))
                (case operation
@@ -148,10 +148,9 @@ a sign is 1."
     (first (algebra-exchanged (list element) #'algebra-program-input))))
 
 (defun forms-at-side (element impulse side)
-  (let ((*algebra-impulses* nil))
-    (first (algebra-exchanged (list element)
-                              (algebra-exchange-by (list (cons 'forms-impulse-factor impulse)
-                                                         (cons 'forms-side side)))))))
+  (first (algebra-exchanged (list element)
+                            (algebra-exchange-by (list (cons 'forms-impulse-factor impulse)
+                                                       (cons 'forms-side side))))))
 
 ;;; For Maxima. Equations x' = J dH/dx were derived without them.
 

@@ -10,7 +10,7 @@
                 "numerics/event_samples" "numerics/events" "numerics/jacobian"
                 "numerics/lost_impulses" "numerics/native" "numerics/observers"
                 "numerics/poles" "numerics/problem" "numerics/routine" "numerics/run"
-                "numerics/run_options" "numerics/sparse" "numerics/switches"))
+                "numerics/run_options" "numerics/switches"))
 
 ;;; Methods
 
@@ -123,19 +123,14 @@ steps; for others a part of an observer, or nil."
 
 (defun numerics-allowed-jump (run)
   "A function (state place): the jump of a state, times M where RUN has one, that does not count."
-  (let* ((problem (numerics-simulation-problem run)) (mass (numerics-problem-mass problem))
+  (let* ((mass (numerics-problem-mass (numerics-simulation-problem run)))
          (controls (numerics-simulation-controls run)) (scales (numerics-controls-scales controls))
          (share (* 10 (numerics-controls-relative controls))))
-    (flet ((sizes (state) (map 'numerics-vector (lambda (x scale) (* share (+ (abs x) scale)))
-                               state scales)))
-      (if mass
-          (lambda (state i)
-            (let ((out (numerics-zeros (length state))))
-              (numerics-multiply (numerics-matrix-pattern mass)
-                                 (map 'numerics-vector #'abs (numerics-matrix-values mass))
-                                 (sizes state) out)
-              (aref out i)))
-          (lambda (state i) (* share (+ (abs (aref state i)) (aref scales i))))))))
+    (lambda (state i)
+      (* share (aref (numerics-times-mass
+                      mass (map 'numerics-vector (lambda (x scale) (+ (abs x) scale)) state scales)
+                      t)
+                     i)))))
 
 (defun numerics-run-impulse-parts (run)
   "Two parts of an observer, or (nil nil)."

@@ -105,6 +105,7 @@ another."
 (defun numerics-missed (switches step from to)
   "What STEP adds between two shares, less the integral of X there, over the tolerance."
   (let* ((integral (numerics-integral switches step from to))
+         (mass (numerics-switches-mass switches))
          (n (length integral))
          (before (numerics-step-state step from (numerics-zeros n)))
          (after (numerics-step-state step to (numerics-zeros n)))
@@ -112,21 +113,20 @@ another."
                       (numerics-switches-scales switches)))
          (largest 0d0))
     (loop for s across integral
-          for x across (numerics-times-mass switches (map 'numerics-vector #'- after before) nil)
-          for scale across (numerics-times-mass switches scales t)
+          for x across (numerics-times-mass mass (map 'numerics-vector #'- after before) nil)
+          for scale across (numerics-times-mass mass scales t)
           do (unless (= scale 0d0)
                (setq largest (max largest (/ (abs (- x s)) scale)))))
     (/ largest (numerics-switches-relative switches))))
 
-(defun numerics-times-mass (switches vector absolute)
-  "M VECTOR, or with the absolute values of M; an equation without rates gives 0."
-  (let ((mass (numerics-switches-mass switches)))
-    (if mass
-        (let ((values (numerics-matrix-values mass)) (out (numerics-zeros (length vector))))
-          (numerics-multiply (numerics-matrix-pattern mass)
-                             (if absolute (map 'numerics-vector #'abs values) values) vector out)
-          out)
-        vector)))
+(defun numerics-times-mass (mass vector absolute)
+  "MASS VECTOR, or with the absolute values of MASS, nil for 1; an equation without rates gives 0."
+  (if mass
+      (let ((values (numerics-matrix-values mass)) (out (numerics-zeros (length vector))))
+        (numerics-multiply (numerics-matrix-pattern mass)
+                           (if absolute (map 'numerics-vector #'abs values) values) vector out)
+        out)
+      vector))
 
 (defun numerics-missed-in-all (switches step zeros)
   (loop for (from to) on (append '(0d0) (mapcar #'first zeros) '(1d0))
