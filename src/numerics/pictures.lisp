@@ -81,9 +81,15 @@ them; none else."
 
 ;;; draw
 
+(defun numerics-draw-there-p ()
+  "Whether draw is there, and whole: another session may have been compiling its second file."
+  (and (fboundp '$draw)
+       (let ((renderer (find-symbol "DRAW_GNUPLOT" :maxima)))
+         (or (null renderer) (fboundp renderer)))))
+
 (defun numerics-load-draw ()
-  (unless (fboundp '$draw) (core-progress "loading draw"))
-  (unless (core-load-share "draw" (lambda () (fboundp '$draw)))
+  (unless (numerics-draw-there-p) (core-progress "loading draw"))
+  (unless (core-load-share "draw" #'numerics-draw-there-p)
     (core-error "Maxima's package draw, which makes the pictures, cannot be loaded")))
 
 (defun numerics-with-own-draw (function)
