@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/branch_slopes" "algebra/impulses" "algebra/zero" "forms/piecewise"))
+  (core-require "algebra/branch_slopes" "algebra/impulses" "algebra/nouns" "algebra/zero"
+                "forms/piecewise"))
 
 (defun $forms_impulse_of_lagrangian (l q v)
   "u where Lagrange's equations of L have an impulse at u = 0; else false."
