@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 768367967 143774
+;;; Made by tools/doc; checksum of doc/*.texi: 1562674843 144382
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -69,7 +69,7 @@
 ("ErrorAgainstTime" . ("dynarch.info" 123554 3906 "Definitions for Numerics"))
 ("ReferenceSolution" . ("dynarch.info" 127461 1962 "Definitions for Numerics"))
 ("RateProgram" . ("dynarch.info" 129424 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 134142 3374 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 134142 4013 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 844 930))
@@ -79,7 +79,7 @@
 ("Definitions for LinModel" . ("dynarch.info" 8887 30564))
 ("Definitions for Circuits" . ("dynarch.info" 39583 24569))
 ("Definitions for Analysis" . ("dynarch.info" 64284 51639))
-("Definitions for Numerics" . ("dynarch.info" 116046 21470))
-("Systems by name" . ("dynarch.info" 137642 8986))
+("Definitions for Numerics" . ("dynarch.info" 116046 22109))
+("Systems by name" . ("dynarch.info" 138281 8986))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

@@ -61,6 +61,26 @@
   "TEXT in the quotes of gnuplot."
   (format nil "'~a'" (numerics-doubled-quotes text)))
 
+(defparameter *numerics-title-letters* 84 "In a line of a title.")
+(defparameter *numerics-title-lines* 3)
+
+(defun numerics-filled-lines (items)
+  "Texts with as many of ITEMS each, texts, as fit into a line, apart by blanks."
+  (let ((lines '()))
+    (dolist (item items (reverse lines))
+      (if (and lines (<= (+ (length (first lines)) 1 (length item)) *numerics-title-letters*))
+          (setf (first lines) (format nil "~a ~a" (first lines) item))
+          (push item lines)))))
+
+(defun numerics-title-line (items)
+  "The line of gnuplot for a title of ITEMS, texts, on a few lines; what is left is not shown."
+  (let ((lines (numerics-filled-lines items)))
+    (when (nthcdr *numerics-title-lines* lines)
+      (setq lines (append (subseq lines 0 (1- *numerics-title-lines*))
+                          (list (format nil "~a .." (nth (1- *numerics-title-lines*) lines))))))
+    (format nil "set title ~{~a~^.\"\\n\".~} noenhanced"
+            (mapcar #'numerics-gnuplot-text lines))))
+
 (defun numerics-state-text (name)
   "The state NAME as an axis says it, theta' for a velocity."
   (if (and (consp name) (eq (caar name) '%derivative))
