@@ -136,10 +136,15 @@ them; none else."
   (and (core-existing-file path)
        (with-open-file (stream (core-pathname path)) (plusp (file-length stream)))))
 
-(defun numerics-scene-of-draw (scene)
+(defparameter *numerics-svg-letters* 15 "Their size; gnuplot's own are smaller than in PNG.")
+
+(defun numerics-scene-of-draw (scene terminal)
   "What draw takes for SCENE, (preamble . items)."
-  (list '($gr2d) (list* '(mlist simp) (numerics-option '$user_preamble (first scene))
-                        (rest scene))))
+  (list '($gr2d) (append (list '(mlist simp) (numerics-option '$user_preamble (first scene)))
+                         (when (eq terminal '$svg)
+                           (list (numerics-option '$font "sans-serif")
+                                 (numerics-option '$font_size *numerics-svg-letters*)))
+                         (rest scene))))
 
 (defun numerics-size-for (size scenes)
   "The size of a picture of SCENES side by side, where one of them has SIZE."
@@ -153,7 +158,8 @@ them; none else."
       (lambda ()
         (let ((*standard-output* (make-broadcast-stream)))
           (mfuncall '$draw
-                    (cons '(mlist simp) (mapcar #'numerics-scene-of-draw scenes))
+                    (cons '(mlist simp) (loop for scene in scenes
+                                               collect (numerics-scene-of-draw scene terminal)))
                     (numerics-option '$columns (length scenes))
                     (numerics-option '$terminal terminal)
                     (numerics-option '$dimensions
