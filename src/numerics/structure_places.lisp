@@ -1,10 +1,14 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
 ;;; Places for the nodes of a graph: their distances in the picture are those along its edges as
 ;;; nearly as can be (E. R. Gansner, Y. Koren, S. North, Graph drawing by stress majorization,
-;;; 2004), from circles in several orders, always the same ones. Taken is what has the fewest
-;;; crossings; it is mended, and turned so that it lies. Look first at numerics-placed-nodes.
+;;; 2004), from circles in several orders, always the same ones. If all have crossings one is
+;;; mended, or cycles are drawn as faces. What has the fewest crossings is turned so that it lies.
+;;; Look first at numerics-placed-nodes.
 
 (in-package :maxima)
+
+(eval-when (:compile-toplevel :load-toplevel :execute)
+  (core-require "numerics/structure_cycles"))
 
 (defparameter *numerics-most-placed* 80
   "Nodes for which places are looked for; more form a circle.")
@@ -13,15 +17,32 @@
 (defun numerics-placed-nodes (n ends)
   "A vector of (x y) for N nodes joined by ENDS, pairs; an edge is about 1 long."
   (if (<= 3 n *numerics-most-placed*)
-      (let ((best nil) (least nil) (lengths (numerics-graph-distances n ends))
-            (edges (numerics-edges ends)))
-        (loop for order in (numerics-orders n)
-              for places = (numerics-relaxed (numerics-on-circle order) lengths)
-              for faults = (numerics-drawing-faults places edges)
-              do (when (or (null least) (< faults least)) (setq best places least faults))
-              until (zerop least))
-        (numerics-laid (if (plusp least) (numerics-mended best edges lengths) best)))
+      (numerics-laid (numerics-best-drawing n (numerics-edges ends)
+                                            (numerics-graph-distances n ends)))
       (numerics-on-circle (loop for k below n collect k))))
+
+(defun numerics-best-drawing (n edges lengths)
+  "Places without faults, if need be of the best of cycles as faces, else with the fewest."
+  (flet ((best (drawings) (numerics-fewest-faults edges drawings))
+         (mended (places) (lambda () (numerics-mended places edges lengths))))
+    (let* ((relaxed (best (loop for order in (numerics-orders n)
+                                collect (let ((order order))
+                                          (lambda () (numerics-relaxed (numerics-on-circle order)
+                                                                       lengths))))))
+           (faces (unless (zerop (numerics-drawing-faults relaxed edges))
+                    (best (mapcar #'constantly (numerics-places-in-cycles n edges))))))
+      (best (append (list (mended relaxed)) (and faces (list (mended faces))))))))
+
+(defun numerics-fewest-faults (edges drawings)
+  "Of the places that the functions DRAWINGS give the first without faults, else those with the
+fewest."
+  (let ((best nil) (least nil))
+    (loop for drawing in drawings
+          for places = (funcall drawing)
+          for faults = (numerics-drawing-faults places edges)
+          do (when (or (null least) (< faults least)) (setq best places least faults))
+          until (zerop least))
+    best))
 
 (defun numerics-on-circle (order)
   "A vector of places, ORDER telling each node's place on a circle."
@@ -152,13 +173,14 @@
 ;;; near as may be to where their distances want them
 
 (defparameter *numerics-grid* 9)
-(defparameter *numerics-sweeps* 6)
+(defparameter *numerics-sweeps* 4)
+(defparameter *numerics-mendings* 60)
 
 (defun numerics-mended (places edges lengths)
   (loop repeat *numerics-sweeps*
         until (zerop (numerics-drawing-faults places edges))
         do (dotimes (node (length places)) (numerics-move-to-fewest places edges lengths node)))
-  (loop repeat *numerics-relaxations*
+  (loop repeat *numerics-mendings*
         do (dotimes (node (length places))
              (numerics-move-unless-worse places edges node
                                          (numerics-wanted-place places lengths node))))
