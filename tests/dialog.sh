@@ -60,7 +60,8 @@ expect 'the description is echoed' $?
 
 rm -f mechanical.txt
 { printf 'two\n?\n1;\nphi theta\n'; pendulum | tail -n +2; printf '99\n2\n1\n\nother.txt\n'; } | ask 'Lagrangian()'
-[ -f other.txt ] && [ ! -f mechanical.txt ] && grep -q 'a positive integer' answer && grep -q 'column 5' answer
+[ -f other.txt ] && [ ! -f mechanical.txt ] && grep -q 'a positive integer' answer && grep -q 'column 5' answer &&
+  tr -s ' \n' ' ' <answer | grep -q 'end of the value. Type a list of names, such as'
 expect 'wrong answers are explained and asked again' $?
 
 rm -f other.txt

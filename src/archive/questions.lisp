@@ -144,4 +144,9 @@ the same text."
                           (archive-type-phrase (archive-key-type key))))
             ((string= answer "") (return nil))
             (t (let ((trouble (archive-value-trouble key text)))
-                 (if trouble (archive-say "  ~a" trouble) (return text))))))))
+                 (if trouble (archive-say-trouble key trouble) (return text))))))))
+
+(defun archive-say-trouble (key trouble)
+  "Says TROUBLE, and what KEY wants where that does not."
+  (let ((phrase (archive-type-phrase (archive-key-type key))))
+    (archive-say "  ~a~:[. Type ~a.~;~]" trouble (search phrase trouble) phrase)))
