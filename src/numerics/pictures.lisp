@@ -146,9 +146,14 @@ them; none else."
                                  (numerics-option '$font_size *numerics-svg-letters*)))
                          (rest scene))))
 
+(defparameter *numerics-wide-enough* 1000
+  "For scenes side by side; a worksheet shrinks what is wider, and its letters with it.")
+
 (defun numerics-size-for (size scenes)
   "The size of a picture of SCENES side by side, where one of them has SIZE."
-  (list (if (rest scenes) (round (* 3/2 (first size))) (first size)) (second size)))
+  (destructuring-bind (width height) size
+    (list (if (and (rest scenes) (< width *numerics-wide-enough*)) (round (* 3/2 width)) width)
+          height)))
 
 (defun numerics-run-draw (terminal size scenes)
   "Draws SCENES, (preamble . items) each, side by side."

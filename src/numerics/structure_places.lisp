@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/structure_cycles"))
+  (core-require "core/watch" "numerics/structure_cycles"))
 
 (defparameter *numerics-most-placed* 80
   "Nodes for which places are looked for; more form a circle.")
@@ -38,7 +38,7 @@
 fewest."
   (let ((best nil) (least nil))
     (loop for drawing in drawings
-          for places = (funcall drawing)
+          for places = (progn (core-progress "arranging the nodes") (funcall drawing))
           for faults = (numerics-drawing-faults places edges)
           do (when (or (null least) (< faults least)) (setq best places least faults))
           until (zerop least))
