@@ -14,12 +14,14 @@
     (let* ((ends (loop for (nil nil a b) in branches collect (list (1- a) (1- b))))
            (joined (loop for (nil a b) in transformers collect (list (1- a) (1- b))))
            (places (numerics-placed-nodes (length nodes) (append ends joined)))
-           (lines (numerics-bent-lines ends places)))
+           (lines (numerics-bent-lines ends places))
+           (labels (numerics-label-places lines places)))
       (or (numerics-draw picture
                          (cons (format nil "~a~{~a~%~}" (numerics-structure-preamble loops joined)
-                                       (append (numerics-branch-lines branches lines places)
+                                       (append (numerics-branch-lines branches lines labels places)
                                                (numerics-transformer-lines joined places)
-                                               (numerics-node-labels nodes ends lines places)))
+                                               (numerics-node-labels
+                                                nodes lines (mapcar #'cdr labels) places)))
                                (numerics-node-items places)))
           '$done))))
 
@@ -61,12 +63,12 @@
                 collect (list (- (+ x (* s dx)) (* side (/ dy distance)))
                               (+ y (* s dy) (* side (/ dx distance)))))))))
 
-(defun numerics-branch-lines (branches lines places)
-  "Arrows along LINES, and the labels of BRANCHES."
+(defun numerics-branch-lines (branches lines labels places)
+  "Arrows along LINES, and the labels of BRANCHES, (k . place) each."
   (loop with size = (min 0.1d0 (* *numerics-head* (numerics-extent places)))
         for (nil label nil nil in-tree) in branches
         for points in lines
-        for (k . place) in (numerics-label-places lines places)
+        for (k . place) in labels
         append (numerics-arrows points (if (>= k 8) 5 13) size in-tree)
         collect (format nil "set label ~a at ~,4f,~,4f center front boxed noenhanced"
                         (numerics-gnuplot-text (core-words (list label)))
@@ -128,34 +130,29 @@ their dashes drawn: gnuplot's begin anew with each of the short lines."
   "How far the nearest of OTHERS is from PLACE."
   (loop for other in others minimize (numerics-gap-between place other)))
 
-;;; Labels of nodes: in the widest gap between their branches
+;;; Labels of nodes: round about, where they are farthest from lines and other labels
 
-(defun numerics-node-labels (nodes ends lines places)
-  (loop for node in nodes
-        for place across places
-        for k from 0
-        collect (numerics-node-label (core-words (list node)) place
-                                     (numerics-widest-gap (numerics-directions k ends lines)))))
+(defparameter *numerics-node-label-way* 0.17d0 "From a node to its label.")
 
-(defun numerics-directions (node ends lines)
-  "The angles at which LINES leave NODE."
-  (loop for (a b) in ends
-        for points in lines
-        when (= a node) collect (numerics-angle-between (first points) (third points))
-        when (= b node) collect (numerics-angle-between (nth 16 points) (nth 14 points))))
+(defun numerics-node-labels (nodes lines labels places)
+  "LABELS are the places of those of branches."
+  (let ((taken (append labels (apply #'append lines) (coerce places 'list))))
+    (loop for node in nodes
+          for place across places
+          collect (numerics-node-label (core-words (list node)) place
+                                       (numerics-freest-direction place taken)))))
 
-(defun numerics-angle-between (from to)
-  (let ((dx (- (first to) (first from))) (dy (- (second to) (second from))))
-    (if (and (zerop dx) (zerop dy)) 0d0 (atan dy dx))))
-
-(defun numerics-widest-gap (angles)
-  "The middle of the widest gap between ANGLES; downwards where there are none."
-  (let ((sorted (sort (copy-list angles) #'<)) (middle (/ pi -2)) (widest -1d0))
-    (loop for (one . more) on sorted
-          for next = (if more (first more) (+ (first sorted) (* 2 pi)))
-          do (when (> (- next one) (+ widest 1d-9))
-               (setq widest (- next one) middle (/ (+ one next) 2))))
-    middle))
+(defun numerics-freest-direction (place taken)
+  "The angle at which a label of the node at PLACE is farthest from what is TAKEN; of equal ones the
+first from straight up."
+  (let ((best (/ pi 2)) (most -1d0))
+    (dotimes (k 16 best)
+      (let* ((angle (+ (/ pi 2) (* k (/ pi 8))))
+             (room (numerics-room
+                    (list (+ (first place) (* *numerics-node-label-way* (cos angle)))
+                          (+ (second place) (* *numerics-node-label-way* (sin angle))))
+                    taken)))
+        (when (> room (+ most 1d-6)) (setq best angle most room))))))
 
 (defun numerics-node-label (text place angle)
   (let ((dx (cos angle)) (dy (sin angle)))

@@ -13,6 +13,7 @@
 (defparameter *numerics-most-placed* 80
   "Nodes for which places are looked for; more form a circle.")
 (defparameter *numerics-orders* 24 "Circles that are tried at most.")
+(defparameter *numerics-most-in-faces* 20 "Nodes for which cycles are drawn as faces.")
 
 (defun numerics-placed-nodes (n ends)
   "A vector of (x y) for N nodes joined by ENDS, pairs; an edge is about 1 long."
@@ -29,7 +30,8 @@
                                 collect (let ((order order))
                                           (lambda () (numerics-relaxed (numerics-on-circle order)
                                                                        lengths))))))
-           (faces (unless (zerop (numerics-drawing-faults relaxed edges))
+           (faces (unless (or (> n *numerics-most-in-faces*)
+                              (zerop (numerics-drawing-faults relaxed edges)))
                     (best (mapcar #'constantly (numerics-places-in-cycles n edges))))))
       (best (append (list (mended relaxed)) (and faces (list (mended faces))))))))
 
@@ -54,7 +56,7 @@ fewest."
 
 (defun numerics-orders (n)
   "Orders of N nodes, fewer of many: as they come, then shuffled."
-  (let ((count (max 1 (min *numerics-orders* (floor 12000 (* n n))))) (seed 1))
+  (let ((count (max 1 (min *numerics-orders* (floor 4000 (* n n))))) (seed 1))
     (flet ((draw (below) (floor (setq seed (mod (* 16807 seed) 2147483647)) (/ 2147483647 below))))
       (loop repeat count
             for order = (loop for k below n collect k)
@@ -93,7 +95,7 @@ fewest."
 
 ;;; Stress majorization: each node goes to the mean of the places at which the others want it
 
-(defparameter *numerics-relaxations* 150)
+(defparameter *numerics-relaxations* 100)
 
 (defun numerics-gap-between (one other)
   (destructuring-bind ((a b) (c d)) (list one other)
@@ -172,7 +174,7 @@ fewest."
 ;;; Where faults are left, single nodes go to places of a grid where they have fewer, and then as
 ;;; near as may be to where their distances want them
 
-(defparameter *numerics-grid* 9)
+(defparameter *numerics-grid* 7)
 (defparameter *numerics-sweeps* 4)
 (defparameter *numerics-mendings* 60)
 
