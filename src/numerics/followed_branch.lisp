@@ -49,9 +49,13 @@
 
 ;;; Along a line
 
-(defparameter *numerics-largest-share* 0.25d0 "Of the way, or of the window.")
+(defparameter *numerics-largest-share* 0.0625d0 "A step in parts of the way.")
 (defparameter *numerics-least-share* 1d-4)
-(defparameter *numerics-largest-correction* 0.05d0)
+
+(defun numerics-allowed-correction (branch change)
+  "What Newton's steps may add to CHANGE of w; more would be another branch behind a narrow fold."
+  (+ 2d-3 (* 0.2d0 (loop for scale in (numerics-branch-scales branch)
+                         for dw in change sum (/ (abs dw) scale)))))
 
 (defun numerics-tilt (branch state da db)
   "By how much w changes from STATE with DA and DB, a list."
@@ -62,13 +66,13 @@
 
 (defun numerics-next-on-branch (branch state da db)
   "STATE moved on by DA and DB; nil where w cannot be followed so far."
-  (let ((next (copy-seq state)))
+  (let ((next (copy-seq state)) (change (numerics-tilt branch state da db)))
     (incf (aref next 0) da)
     (incf (aref next 1) db)
-    (loop for change in (numerics-tilt branch state da db)
+    (loop for dw in change
           for k from 2
-          do (incf (aref next k) change))
-    (and (numerics-corrected-p branch next *numerics-largest-correction*) next)))
+          do (incf (aref next k) dw))
+    (and (numerics-corrected-p branch next (numerics-allowed-correction branch change)) next)))
 
 (defun numerics-branch-at (branch a b)
   "The vector (A B w ..) on BRANCH; nil where it does not reach so far along a line."
@@ -78,7 +82,7 @@
           while (< way 1d0)
           do (let* ((part (min share (- 1d0 way)))
                     (next (numerics-next-on-branch branch state (* part da) (* part db))))
-               (cond (next (setq state next share (* 2 share))
+               (cond (next (setq state next share (min *numerics-largest-share* (* 2 share)))
                            (incf way part)
                            (when (> way (- 1d0 1d-12)) (setq way 1d0)))
                      (t (setq share (/ part 2))))
