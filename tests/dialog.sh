@@ -60,7 +60,8 @@ expect 'the description is echoed' $?
 
 rm -f mechanical.txt
 { printf 'two\n?\n1;\nphi theta\n'; pendulum | tail -n +2; printf '99\n2\n1\n\nother.txt\n'; } | ask 'Lagrangian()'
-[ -f other.txt ] && [ ! -f mechanical.txt ] && grep -q 'a positive integer' answer && grep -q 'column 5' answer
+[ -f other.txt ] && [ ! -f mechanical.txt ] && grep -q 'a positive integer' answer && grep -q 'column 5' answer &&
+  tr -s ' \n' ' ' <answer | grep -q 'end of the value. Type a list of names, such as'
 expect 'wrong answers are explained and asked again' $?
 
 rm -f other.txt
@@ -168,6 +169,16 @@ rm -f circuit.txt
 { graph; echo; echo; } | ask 'MixedPotential()'
 tr -d '\n' <answer | grep -q 'implies sign = generator' && grep -q '^graph = ' circuit.txt && grep -q '^\[result MixedPotential\]' circuit.txt
 expect 'a graph as a list, and what it implies' $?
+
+# what is there is shown, kept by Enter and removed by -: the row of a resistor, the parameters
+rm -f circuit.txt
+{ circuit; printf '%s\n' 4 '' 4 '2 -> 1 R R2' 1 '' 4 - title second '' changed.txt; } | ask 'MixedPotential()'
+tr -d '\n' <answer | grep -q 'row (now 2 -> 1 R R1; Enter keeps it, - removes it)' &&
+  tr -d '\n' <answer | grep -q 'Parameters, with what is assumed of them (now \[L1 > 0, C1 > 0, R1 > 0\]; Enter keeps' &&
+  grep -q '^parameters = \[L1 > 0' changed.txt && [ "$(grep -c -- '->' changed.txt)" = 2 ] && ! grep -q 'R2' changed.txt && grep -q '^title = "second"' changed.txt
+expect 'an item is kept by Enter and removed by -' $?
+! grep -q '\[\[\]\]' answer && grep -q 'Names of functions left open \[Enter: none\]' answer
+expect 'an empty default is none' $?
 
 # a potential without branches
 rm -f circuit.txt

@@ -218,6 +218,8 @@
 ;;; What is drawn: equilibria with verdicts, numbers put in for parameters
 
 (defparameter *analysis-values* (list "values" *analysis-none*))
+(core-rule "rest_points" '("equations") "analysis/rest_points" "analysis_rest_points_state"
+  "equations" *analysis-variables* *analysis-values* *analysis-laws*)
 (core-rule "rest_points" *analysis-states* "analysis/rest_points" "analysis_rest_points_state"
   "state_equations" *analysis-variables* *analysis-values* *analysis-laws*)
 (core-rule "rest_points" *analysis-motions* "analysis/rest_points" "analysis_rest_points_lagrange"

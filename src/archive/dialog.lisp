@@ -88,9 +88,14 @@
         collect (make-archive-item :section section :key nil :text row)))
 
 (defun archive-ask-good-row (section n)
+  (archive-ask-row section (format nil "row ~d [Enter: no more]" n) '("")))
+
+(defun archive-ask-row (section what plain)
+  "A row of SECTION, or one of the PLAIN answers."
   (loop
-    (let* ((row (archive-ask-line (format nil "~a: row ~d [Enter: no more]" section n)))
-           (trouble (and (string/= row "") (string/= row "?") (archive-row-trouble section row))))
+    (let* ((row (archive-ask-line (format nil "~a: ~a" section what)))
+           (trouble (and (string/= row "?") (not (member row plain :test #'string=))
+                         (archive-row-trouble section row))))
       (cond ((string= row "?") (archive-say "  ~a" (archive-row-form section)))
             (trouble (archive-say "  ~a" trouble))
             (t (return row))))))
@@ -167,19 +172,37 @@
 ;;; Changes
 
 (defun archive-new-text (item)
-  "What the person wants instead of the text of ITEM; the old text where no answer is given."
-  (let ((key (archive-item-key item)))
-    (if key
-        (let ((text (archive-ask-key key (archive-item-section item) nil)))
-          (if (stringp text) text (archive-item-text item)))
-        (archive-ask-good-row (archive-item-section item) 1))))
+  "What the person wants instead of the text of ITEM; that text where no answer is given, nil where
+it is to go."
+  (let* ((key (archive-item-key item)) (section (archive-item-section item))
+         (present (archive-item-text item))
+         (text (if key
+                   (archive-ask-key key section nil present)
+                   (archive-new-row section present))))
+    (cond ((eq text :none) nil)
+          ((stringp text) text)
+          (t present))))
+
+(defun archive-new-row (section present)
+  (let ((row (archive-ask-row section (format nil "row ~a" (archive-present-text present))
+                              '("" "-"))))
+    (cond ((string= row "") nil)
+          ((string= row "-") :none)
+          (t row))))
+
+(defun archive-changed-item (items item)
+  "ITEMS after the person has changed ITEM among them."
+  (setf (archive-item-text item) (archive-new-text item))
+  (if (archive-item-text item) items (remove item items)))
 
 (defun archive-named-key (kind answer items)
-  "Section and key that ANSWER names, `field' or `body 1: inertia', or nil."
+  "Section and key that ANSWER names, `field', `title' or `body 1: inertia', or nil."
   (let* ((colon (position #\: answer))
-         (section (if colon (string-trim " " (subseq answer 0 colon)) "system"))
          (name (string-trim " " (if colon (subseq answer (1+ colon)) answer)))
-         (key (and (or (string= section "system")
+         (section (cond (colon (string-trim " " (subseq answer 0 colon)))
+                        ((string= name "title") "top")
+                        (t "system")))
+         (key (and (or (member section '("system" "top") :test #'string=)
                        (find section items :key #'archive-item-section :test #'string=))
                    (archive-find-key kind (archive-section-word section) name))))
     (and key (values section key))))
@@ -200,10 +223,9 @@
   "ITEMS after the person has given a value to KEY of SECTION."
   (let ((item (or (archive-item-of items section key)
                   (make-archive-item :section section :key key :text nil))))
-    (setf (archive-item-text item) (archive-new-text item))
-    (if (or (null (archive-item-text item)) (member item items))
-        items
-        (archive-with-item items item))))
+    (if (member item items)
+        (archive-changed-item items item)
+        (archive-changed-item (archive-with-item items item) item))))
 
 (defun archive-change (kind items answer)
   "ITEMS after the change that ANSWER asks for: a number of the echo, or a key."
@@ -211,9 +233,7 @@
                      (parse-integer answer))))
     (multiple-value-bind (section key) (archive-named-key kind answer items)
       (cond ((and number (<= 1 number (length items)))
-             (let ((item (nth (1- number) items)))
-               (setf (archive-item-text item) (archive-new-text item)))
-             items)
+             (archive-changed-item items (nth (1- number) items)))
             (key (archive-change-named items section key))
             (t (archive-say "  Type a number from 1 to ~d, a key such as field, or a section and ~
                              its key such as body 1: inertia."

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/bare_graph" "archive/keys" "archive/open" "archive/types"))
+  (core-require "archive/bare_graph" "archive/keys" "archive/open" "archive/types" "core/messages"))
 
 (defvar *archive-asked* '() "The questions asked in this dialog.")
 (defvar *archive-fresh-input* nil
@@ -22,11 +22,12 @@
   #-sbcl *query-io*)
 
 (defun archive-prompt (question)
-  "QUESTION as Maxima's own read() prints it, so that a worksheet shows it as a prompt."
-  (format-prompt nil "~a"
-                 (string-right-trim '(#\Newline #\Space)
-                                    (with-output-to-string (*standard-output*)
-                                      (mfuncall '$print question)))))
+  "QUESTION as read() of Maxima prints it, so that a worksheet shows it as a prompt; on one line."
+  (let (($linel 100000) (linel 100000))
+    (format-prompt nil "~a"
+                   (string-right-trim '(#\Newline #\Space)
+                                      (with-output-to-string (*standard-output*)
+                                        (mfuncall '$print question))))))
 
 (defun archive-numbered-question (question)
   "QUESTION, numbered when it is asked again: worksheets fill in the old answer to a question of
@@ -99,16 +100,25 @@ the same text."
 
 ;;; One key
 
-(defun archive-question-text (key section required)
-  (format nil "~@[~a: ~]~a~a" (and (string/= section "top") section) (archive-key-question key)
-          (cond (required " (needed; ? explains)")
-                ((archive-default key) (format nil " [~a]" (archive-default key)))
-                (t " [Enter: none]"))))
+(defun archive-question-text (key section required present)
+  (format nil "~@[~a: ~]~a ~a" (and (string/= section "top") section) (archive-key-question key)
+          (cond (present (archive-present-text present))
+                (required "(needed; ? explains)")
+                ((archive-said-default key) (format nil "[~a]" (archive-said-default key)))
+                (t "[Enter: none]"))))
+
+(defun archive-present-text (present)
+  (format nil "(now ~a; Enter keeps it, - removes it)" (core-cut present)))
+
+(defun archive-said-default (key)
+  "The default of KEY where there is one to be told: an empty list is none."
+  (let ((default (archive-default key)))
+    (and (not (equal default "[]")) default)))
 
 (defun archive-explain (key)
   (archive-say "  ~a: ~a. Type ~a.~@[ Enter takes ~a.~]" (archive-key-name key)
                (archive-help-text key) (archive-type-phrase (archive-key-type key))
-               (archive-default key)))
+               (archive-said-default key)))
 
 (defun archive-quoted-text (text)
   "TEXT as a string of the archive, if it is not one yet."
@@ -119,18 +129,24 @@ the same text."
       (archive-quoted-text answer)
       answer))
 
-(defun archive-ask-key (key section required)
-  "The text of the value of KEY; nil for its default, :rest where the person takes all defaults
-that follow."
+(defun archive-ask-key (key section required &optional present)
+  "The text of the value of KEY; nil for its default, or for the PRESENT text where there is one,
+:rest where the person takes all defaults that follow, :none where that text is to go."
   (loop
     (let* ((answer (archive-whole-answer
-                    key (archive-ask-line (archive-question-text key section required))))
+                    key (archive-ask-line (archive-question-text key section required present))))
            (text (archive-answer-for-archive key answer)))
       (cond ((string= answer "?") (archive-explain key))
+            ((and present (string= answer "-")) (return :none))
             ((and (string= answer ".") (not required)) (return :rest))
             ((and (member answer '("" ".") :test #'string=) required)
              (archive-say "  ~a is needed: ~a." (archive-key-name key)
                           (archive-type-phrase (archive-key-type key))))
             ((string= answer "") (return nil))
             (t (let ((trouble (archive-value-trouble key text)))
-                 (if trouble (archive-say "  ~a" trouble) (return text))))))))
+                 (if trouble (archive-say-trouble key trouble) (return text))))))))
+
+(defun archive-say-trouble (key trouble)
+  "Says TROUBLE, and what KEY wants where that does not."
+  (let ((phrase (archive-type-phrase (archive-key-type key))))
+    (archive-say "  ~a~:[. Type ~a.~;~]" trouble (search phrase trouble) phrase)))

@@ -114,7 +114,7 @@ of another is kept for those that take it."
 
 (defun archive-derive-now (call name rule)
   (let ((inputs (archive-inputs call rule)))
-    (core-progress "computing ~a" name)
+    (core-progress "computing ~a" (substitute #\Space #\_ name))
     (archive-assuming call name
                       (lambda ()
                         (mapc #'core-judge-divisors inputs)

@@ -51,15 +51,17 @@
 ;;; A diagram
 
 (defparameter *numerics-point-types*
-  '($filled_circle $filled_square $filled_up_triangle $filled_diamant $filled_down_triangle))
+  '($circle $filled_square $filled_up_triangle $filled_diamant $filled_down_triangle))
+(defparameter *numerics-point-sizes* '(2.6d0 1.8d0 1.6d0 1.4d0 1.2d0))
 
 (defun numerics-method-items (groups cost)
-  "A curve for each method; the signs become smaller, so that one that hides another shows it."
+  "A curve for each method; the signs become smaller, and the first is open, so that one that lies
+on another shows it: the first is the method that chooses one of the others."
   (append (list (numerics-option '$points_joined t) (numerics-option '$line_width 1.6d0))
           (loop for (method . rows) in groups
                 for colour in *numerics-colours*
                 for sign in *numerics-point-types*
-                for point-size downfrom 2d0 by 0.2d0
+                for point-size in *numerics-point-sizes*
                 for places = (numerics-cost-places rows cost)
                 when places
                   append (list (numerics-option '$color colour)

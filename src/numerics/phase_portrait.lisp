@@ -6,7 +6,8 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_nodes" "algebra/program_record" "numerics/native"
-                "numerics/pictures" "numerics/plane" "numerics/rests_in_window" "numerics/run"
+                "numerics/pictures" "numerics/plane" "numerics/plane_axes"
+                "numerics/rests_in_window" "numerics/run"
                 "numerics/trajectories"))
 
 (defstruct numerics-portrait plane rests separatrices trajectories)
@@ -116,14 +117,13 @@
                            for name in '("x" "y")
                            append (numerics-small-range-lines name (numerics-at-place axis 0d0)
                                                               (numerics-at-place axis 1d0)))
-                     (when about (list (numerics-title-line (reverse about)))))))))
+                     (when about
+                       (list (numerics-title-line (numerics-title-items (reverse about))))))))))
 
-(defun numerics-title-line (sentences)
-  "SENTENCES as a title, without the reasons that follow a colon."
-  (format nil "set title ~a noenhanced"
-          (numerics-gnuplot-text
-           (format nil "~{~a~^; ~}"
-                   (loop for text in sentences collect (subseq text 0 (search ": " text)))))))
+(defun numerics-title-items (sentences)
+  "SENTENCES with signs between them, without the reasons that follow a colon."
+  (loop for (text . more) on sentences
+        collect (format nil "~a~:[~;;~]" (subseq text 0 (search ": " text)) more)))
 
 ;;; For Maxima
 

@@ -61,6 +61,26 @@
   "TEXT in the quotes of gnuplot."
   (format nil "'~a'" (numerics-doubled-quotes text)))
 
+(defparameter *numerics-title-letters* 84 "In a line of a title.")
+(defparameter *numerics-title-lines* 3)
+
+(defun numerics-filled-lines (items)
+  "Texts with as many of ITEMS each, texts, as fit into a line, apart by blanks."
+  (let ((lines '()))
+    (dolist (item items (reverse lines))
+      (if (and lines (<= (+ (length (first lines)) 1 (length item)) *numerics-title-letters*))
+          (setf (first lines) (format nil "~a ~a" (first lines) item))
+          (push item lines)))))
+
+(defun numerics-title-line (items)
+  "The line of gnuplot for a title of ITEMS, texts, on a few lines; what is left is not shown."
+  (let ((lines (numerics-filled-lines items)))
+    (when (nthcdr *numerics-title-lines* lines)
+      (setq lines (append (subseq lines 0 (1- *numerics-title-lines*))
+                          (list (format nil "~a .." (nth (1- *numerics-title-lines*) lines))))))
+    (format nil "set title ~{~a~^.\"\\n\".~} noenhanced"
+            (mapcar #'numerics-gnuplot-text lines))))
+
 (defun numerics-state-text (name)
   "The state NAME as an axis says it, theta' for a velocity."
   (if (and (consp name) (eq (caar name) '%derivative))
@@ -116,14 +136,24 @@ them; none else."
   (and (core-existing-file path)
        (with-open-file (stream (core-pathname path)) (plusp (file-length stream)))))
 
-(defun numerics-scene-of-draw (scene)
+(defparameter *numerics-svg-letters* 15 "Their size; gnuplot's own are smaller than in PNG.")
+
+(defun numerics-scene-of-draw (scene terminal)
   "What draw takes for SCENE, (preamble . items)."
-  (list '($gr2d) (list* '(mlist simp) (numerics-option '$user_preamble (first scene))
-                        (rest scene))))
+  (list '($gr2d) (append (list '(mlist simp) (numerics-option '$user_preamble (first scene)))
+                         (when (eq terminal '$svg)
+                           (list (numerics-option '$font "sans-serif")
+                                 (numerics-option '$font_size *numerics-svg-letters*)))
+                         (rest scene))))
+
+(defparameter *numerics-wide-enough* 1000
+  "For scenes side by side; a worksheet shrinks what is wider, and its letters with it.")
 
 (defun numerics-size-for (size scenes)
   "The size of a picture of SCENES side by side, where one of them has SIZE."
-  (list (if (rest scenes) (round (* 3/2 (first size))) (first size)) (second size)))
+  (destructuring-bind (width height) size
+    (list (if (and (rest scenes) (< width *numerics-wide-enough*)) (round (* 3/2 width)) width)
+          height)))
 
 (defun numerics-run-draw (terminal size scenes)
   "Draws SCENES, (preamble . items) each, side by side."
@@ -133,7 +163,8 @@ them; none else."
       (lambda ()
         (let ((*standard-output* (make-broadcast-stream)))
           (mfuncall '$draw
-                    (cons '(mlist simp) (mapcar #'numerics-scene-of-draw scenes))
+                    (cons '(mlist simp) (loop for scene in scenes
+                                               collect (numerics-scene-of-draw scene terminal)))
                     (numerics-option '$columns (length scenes))
                     (numerics-option '$terminal terminal)
                     (numerics-option '$dimensions

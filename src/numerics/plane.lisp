@@ -8,148 +8,40 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/program_exchange" "algebra/program_nodes" "forms/dynamics"
-                "forms/rates" "numerics/element_words" "numerics/lost_impulses"
-                "numerics/native" "numerics/problem" "numerics/program" "numerics/rate_program"
-                "numerics/rates_problem" "numerics/routine" "numerics/run"
+                "forms/rates" "numerics/algebraic_rates" "numerics/branch_over_axes"
+                "numerics/element_words" "numerics/followed_branch" "numerics/lost_impulses"
+                "numerics/native" "numerics/plane_axes" "numerics/problem" "numerics/program"
+                "numerics/rate_program" "numerics/rates_problem" "numerics/run"
                 "numerics/run_options"))
-
-(defstruct numerics-axis
-  name                            ; the state
-  (low 0d0 :type double-float) (width 1d0 :type double-float)
-  turns)                          ; whole turns after which all rates are the same, nil for none
 
 (defstruct numerics-plane
   axes                            ; two
   forwards backwards              ; problems
   alone                           ; whether the system has no other states
+  (branch nil)                    ; of the states that equations 0 = .. determine, nil for none
+  (unrated '())                   ; those of the axes that are such states
   held                            ; ((name . exact value) ..)
   moving)                         ; those of the names held that would move
 
-(core-record numerics-window
-  "HORIZONTAL and VERTICAL are [name, low, high] as typed, START equations for what is held."
-  horizontal vertical start)
-
-;;; The window
-
-(defparameter *numerics-largest-end* 1d100)
-(defparameter *numerics-narrowest-axis* 1d-9 "In parts of the larger of its ends.")
-(defparameter *numerics-longest-angle* (* 200 pi) "A hundred turns.")
-
-(defun numerics-check-axis (axis ends)
-  "An error where AXIS with ENDS, numbers as typed, cannot be drawn."
-  (let* ((low (numerics-axis-low axis)) (width (numerics-axis-width axis))
-         (largest (max (abs low) (abs (+ low width)))))
-    (unless (plusp width)
-      (core-error "the axis of ~a ends at ~a, not after its start ~a; give the smaller number first"
-                  (numerics-name-text (numerics-axis-name axis)) (core-words (list (second ends)))
-                  (core-words (list (first ends)))))
-    (unless (and (<= largest *numerics-largest-end*)
-                 (>= largest (/ *numerics-largest-end*))
-                 (> width (* *numerics-narrowest-axis* largest)))
-      (core-error "the axis of ~a from ~a to ~a is too ~:[wide~;narrow~] to be drawn"
-                  (numerics-name-text (numerics-axis-name axis))
-                  (core-cut (core-words (list (first ends))))
-                  (core-cut (core-words (list (second ends)))) (<= largest *numerics-largest-end*)))
-    (when (and (numerics-axis-turns axis) (> width *numerics-longest-angle*))
-      (core-error "the axis of the angle ~a goes through more than 100 turns; take a shorter one"
-                  (numerics-name-text (numerics-axis-name axis))))
-    axis))
-
-(defun numerics-read-axis (items rates period)
-  "PERIOD tells of a state after how many turns all is the same."
-  (destructuring-bind (name . ends) (numerics-items items)
-    (unless (member name (forms-rates-states rates) :test #'alike1)
-      (numerics-refuse-start-name name (forms-rates-states rates)))
-    (destructuring-bind (from to)
-        (mapcar (lambda (e) (numerics-double e "an end of an axis")) ends)
-      (numerics-check-axis
-       (make-numerics-axis :name name :low from
-                           :width (numerics-with-masked-traps (- to from))
-                           :turns (and (member name (forms-rates-angles rates) :test #'alike1)
-                                       (funcall period name)))
-       ends))))
-
-(defun numerics-read-axes (window rates)
-  (let* ((period (numerics-period-of rates))
-         (axes (list (numerics-read-axis (numerics-window-horizontal window) rates period)
-                     (numerics-read-axis (numerics-window-vertical window) rates period))))
-    (when (alike1 (numerics-axis-name (first axes)) (numerics-axis-name (second axes)))
-      (core-error "both axes are ~a; take two states"
-                  (numerics-name-text (numerics-axis-name (first axes)))))
-    axes))
-
-(defun numerics-place (axis number)
-  "Where the state NUMBER stands along AXIS: 0 at its low end, 1 at its high one."
-  (declare (double-float number))
-  (/ (- number (numerics-axis-low axis)) (numerics-axis-width axis)))
-
-(defun numerics-at-place (axis place)
-  (declare (double-float place))
-  (+ (numerics-axis-low axis) (* place (numerics-axis-width axis))))
-
-;;; What the rates truly depend on, at three places: a program may name a state that cancels
-
-(defun numerics-some-places (n)
-  (loop for k from 1 to 3
-        collect (map 'numerics-vector (lambda (i) (+ 0.4d0 (* 0.3d0 (sin (* k i)))))
-                     (loop for i from 1d0 to n collect i))))
-
-(defun numerics-rates-routine (rates names)
-  "The function (moment state out) of the RATES of NAMES."
-  (numerics-routine (make-numerics-program :algebra *algebra-program*
-                                           :names (forms-rates-states rates))
-                    (numerics-rates-of rates names)))
-
-(defun numerics-same-after-p (routine count x place way)
-  "Whether the COUNT values of ROUTINE at X are the same where the state at PLACE is moved on by
-WAY."
-  (let ((later (copy-seq x)) (here (numerics-zeros count)) (there (numerics-zeros count)))
-    (incf (aref later place) way)
-    (numerics-with-masked-traps
-      (funcall routine (numerics-moment 0d0) x here)
-      (funcall routine (numerics-moment 0d0) later there)
-      (every (lambda (a b) (<= (abs (- a b)) (* 1d-9 (+ 1 (abs a))))) here there))))
-
-;;; Turns: what stands in sin(x/2) is the same after two of them
-
-(defparameter *numerics-most-turns* 12)
-
-(defun numerics-period-of (rates)
-  "The function of a state that gives the number of turns after which all RATES are the same; nil
-where it is not found."
-  (let* ((names (forms-rates-states rates)) (n (length names)) (places (numerics-some-places n))
-         (routine (numerics-rates-routine rates names)))
-    (lambda (name)
-      (let ((place (position name names :test #'alike1)))
-        (loop for turns from 1 to *numerics-most-turns*
-              when (every (lambda (x) (numerics-same-after-p routine n x place (* 2 pi turns)))
-                          places)
-                return turns)))))
-
 ;;; What is held
 
-(defun numerics-other-states (rates names)
-  "The states beside NAMES that their rates name, directly: (name . whether they depend on it)."
-  (let* ((states (forms-rates-states rates)) (routine (numerics-rates-routine rates names))
+(defun numerics-other-states (rates names elements)
+  "The states beside NAMES that ELEMENTS name, directly: (name . whether they depend on it)."
+  (let* ((states (forms-rates-states rates)) (routine (numerics-element-routine rates elements))
          (places (numerics-some-places (length states))))
-    (loop for input in (algebra-inputs-of (numerics-rates-of rates names))
+    (loop for input in (algebra-inputs-of elements)
           for place = (position input states :test #'alike1)
           when (and place (not (member input names :test #'alike1)))
             collect (cons input
                           (notevery (lambda (x)
-                                      (numerics-same-after-p routine (length names) x place 0.3d0))
+                                      (numerics-same-after-p routine (length elements) x place
+                                                             0.3d0))
                                     places)))))
-
-(defun numerics-rates-of (rates names)
-  "The elements of the rates of NAMES."
-  (loop for name in names
-        collect (nth (position name (forms-rates-states rates) :test #'alike1)
-                     (forms-right-sides rates))))
 
 (defparameter *numerics-any-value* '((rat simp) 2 5))
 
 (defun numerics-held-value (name names start values rates)
-  "The exact value at which NAME is held beside the axes NAMES."
+  "The exact value at which NAME is held beside NAMES."
   (let ((given (find name (numerics-items start) :key #'second :test #'alike1))
         (value (find name (numerics-items values) :key #'second :test #'alike1)))
     (cond (given (third given))
@@ -168,10 +60,10 @@ equations may name velocities and coordinates that are none of the states here."
                                :test #'alike1))
              (numerics-refuse-start-name name (forms-rates-states rates)))))
 
-(defun numerics-held-values (rates names start values)
-  "((name . exact value) ..) of what is held beside NAMES; what cancels has some value."
+(defun numerics-held-values (rates names elements start values)
+  "((name . exact value) ..) of what is held of ELEMENTS beside NAMES; what cancels has some value."
   (numerics-check-held-names rates start)
-  (loop for (name . counts) in (numerics-other-states rates names)
+  (loop for (name . counts) in (numerics-other-states rates names elements)
         collect (cons name (if counts
                                (numerics-held-value name names start values rates)
                                *numerics-any-value*))))
@@ -190,7 +82,7 @@ equations may name velocities and coordinates that are none of the states here."
   (when (forms-output-list '$velocities (forms-rates-outputs rates))
     (core-error "the system has constraints, which its states are not free of; choose ~
                  coordinates that need none"))
-  (let ((elements (numerics-rates-of rates (forms-rates-states rates))))
+  (let ((elements (forms-right-sides rates)))
     (when (member '$t (algebra-inputs-of elements))
       (core-error "the equations contain the time: through a point goes more than one trajectory"))
     (numerics-check-names rates elements)))
@@ -201,23 +93,51 @@ equations may name velocities and coordinates that are none of the states here."
 
 (defun numerics-new-plane (rates values window)
   (let* ((pairs (numerics-parameter-pairs values rates))
-         (rates (numerics-run-rates rates pairs t))
+         (rates (numerics-run-rates rates pairs :rated))
          (axes (progn (numerics-refuse-no-plane rates) (numerics-read-axes window rates)))
          (names (mapcar #'numerics-axis-name axes))
-         (held (numerics-held-values rates names (numerics-window-start window) values))
-         (others (mapcar #'car held))
-         (elements (algebra-exchanged (numerics-rates-of rates (append names others))
-                                      (algebra-exchange-by (numerics-held-elements held))))
-         (plane (subseq elements 0 2)))
+         (followed (numerics-followed-states rates names))
+         (elements (append (numerics-axis-rates rates names) (numerics-closings rates)))
+         (held (numerics-held-values rates (append names followed) elements
+                                     (numerics-window-start window) values)))
     (numerics-warn-of-lost-impulses rates axes held)
-    (make-numerics-plane
-     :axes axes :alone (null (cddr (forms-rates-states rates)))
-     :held (remove *numerics-any-value* held :key #'cdr)
-     :moving (loop for (name . value) in held
-                   for element in (nthcdr 2 elements)
-                   unless (or (eql element 0) (eq value *numerics-any-value*)) collect name)
-     :forwards (numerics-plane-problem names plane)
-     :backwards (numerics-plane-problem names (mapcar #'algebra-program-negate plane)))))
+    (numerics-plane-of axes rates held followed elements (numerics-window-start window))))
+
+(defun numerics-plane-of (axes rates held followed elements start)
+  "The plane of AXES: ELEMENTS are their rates, and what determines the states FOLLOWED from START."
+  (let ((elements (numerics-elements-held elements held))
+        (names (append (mapcar #'numerics-axis-name axes) followed)))
+    (destructuring-bind (branch . rest-of-rates)
+        (if followed (numerics-branch-of axes followed elements start) '(nil))
+      (let ((flow (append (subseq elements 0 2) rest-of-rates)))
+        (make-numerics-plane
+         :axes axes :branch branch
+         :unrated (intersection names (set-difference (numerics-algebraic-states rates) followed
+                                                      :test #'alike1)
+                                :test #'alike1)
+         :alone (= 2 (length (numerics-rated-states rates)))
+         :held (remove *numerics-any-value* held :key #'cdr)
+         :moving (numerics-moving-names rates held)
+         :forwards (numerics-plane-problem names flow)
+         :backwards (numerics-plane-problem names (mapcar #'algebra-program-negate flow)))))))
+
+(defun numerics-elements-held (elements held)
+  (algebra-exchanged elements (algebra-exchange-by (numerics-held-elements held))))
+
+(defun numerics-moving-names (rates held)
+  "Those of the names HELD that would move."
+  (let ((names (mapcar #'car held)))
+    (loop for (name . value) in held
+          for element in (numerics-elements-held (numerics-axis-rates rates names) held)
+          unless (or (eql element 0) (eq value *numerics-any-value*)) collect name)))
+
+(defun numerics-state-over (plane x y)
+  "The state of the problems at (X, Y); nil where its branch does not reach so far."
+  (if (numerics-plane-branch plane)
+      (numerics-branch-at (numerics-plane-branch plane) x y)
+      (coerce (list x y) 'numerics-vector)))
+
+;;; Impulses
 
 (defun numerics-gaps-in-plane (gaps rates axes exchange)
   "GAPS, (i . gap), of the states of AXES."
@@ -226,15 +146,23 @@ equations may name velocities and coordinates that are none of the states here."
                               :key #'numerics-axis-name :test #'alike1)
         when place collect (cons place (first (algebra-exchanged (list gap) exchange)))))
 
+(defun numerics-impulses-in-plane (rates axes exchange)
+  "The impulses of RATES, (u . gaps), where they are functions of AXES alone."
+  (loop with names = (mapcar #'numerics-axis-name axes)
+        for (u . gaps) in (forms-rates-impulses rates)
+        for there = (cons (first (algebra-exchanged (list u) exchange))
+                          (numerics-gaps-in-plane gaps rates axes exchange))
+        when (subsetp (algebra-inputs-of (cons (first there) (mapcar #'cdr (rest there)))) names
+                      :test #'alike1)
+          collect there))
+
 (defun numerics-warn-of-lost-impulses (rates axes held)
   "A warning where trajectories cross a jump of what the equations of RATES are derivatives of."
   (let* ((exchange (algebra-exchange-by (numerics-held-elements held)))
          (program (make-numerics-program :algebra *algebra-program*
                                          :names (mapcar #'numerics-axis-name axes)))
          (impulses (numerics-new-impulses
-                    (loop for (u . gaps) in (forms-rates-impulses rates)
-                          collect (cons (first (algebra-exchanged (list u) exchange))
-                                        (numerics-gaps-in-plane gaps rates axes exchange)))
+                    (numerics-impulses-in-plane rates axes exchange)
                     program
                     (lambda (state i)
                       (declare (ignore state))
@@ -254,24 +182,38 @@ equations may name velocities and coordinates that are none of the states here."
 
 (defun numerics-slope-at (plane x y)
   "Two values: the rates at (X, Y) in units of the window."
-  (let ((state (numerics-zeros 2)) (out (numerics-zeros 2)))
-    (setf (aref state 0) x (aref state 1) y)
-    (funcall (numerics-problem-rates (numerics-plane-forwards plane)) (numerics-moment 0d0) state
-             out)
-    (values (/ (aref out 0) (numerics-axis-width (first (numerics-plane-axes plane))))
-            (/ (aref out 1) (numerics-axis-width (second (numerics-plane-axes plane)))))))
+  (let ((state (numerics-state-over plane x y)) (problem (numerics-plane-forwards plane)))
+    (if state
+        (let ((out (numerics-zeros (numerics-problem-size problem))))
+          (funcall (numerics-problem-rates problem) (numerics-moment 0d0) state out)
+          (values-list (loop for axis in (numerics-plane-axes plane)
+                             for rate across out
+                             collect (/ rate (numerics-axis-width axis)))))
+        (values (numerics-not-a-number) (numerics-not-a-number)))))
 
 (defun numerics-slopes-at (plane x y)
   "The matrix ((a b) (c d)) of the derivatives of the rates at (X, Y), in units of the window."
-  (let* ((problem (numerics-plane-forwards plane)) (pattern (numerics-problem-pattern problem))
+  (let ((state (numerics-state-over plane x y))
+        (axes (mapcar #'numerics-axis-width (numerics-plane-axes plane))))
+    (loop for row in (cond ((null state)
+                            (make-list 2 :initial-element
+                                       (make-list 2 :initial-element (numerics-not-a-number))))
+                           ((numerics-plane-branch plane)
+                            (numerics-slopes-on-branch (numerics-plane-branch plane) state))
+                           (t (numerics-full-slopes (numerics-plane-forwards plane) state)))
+          for height in axes
+          collect (loop for e in row for width in axes collect (/ (* e width) height)))))
+
+(defun numerics-slopes-on-branch (branch state)
+  (let ((slopes (funcall (numerics-branch-slopes branch) state)))
+    (loop for i below 2 collect (list (aref slopes i) (aref slopes (+ 2 i))))))
+
+(defun numerics-full-slopes (problem state)
+  "The matrix of the jacobian of PROBLEM, which has two states."
+  (let* ((pattern (numerics-problem-pattern problem))
          (starts (numerics-pattern-starts pattern)) (rows (numerics-pattern-rows pattern))
-         (values (numerics-zeros (length rows))) (matrix (list (list 0d0 0d0) (list 0d0 0d0)))
-         (state (numerics-zeros 2)) (axes (numerics-plane-axes plane)))
-    (setf (aref state 0) x (aref state 1) y)
+         (values (numerics-zeros (length rows))) (matrix (list (list 0d0 0d0) (list 0d0 0d0))))
     (funcall (numerics-problem-jacobian problem) (numerics-moment 0d0) state values)
     (dotimes (j 2 matrix)
       (loop for k from (aref starts j) below (aref starts (1+ j))
-            for i = (aref rows k)
-            do (setf (nth j (nth i matrix))
-                     (* (aref values k) (/ (numerics-axis-width (nth j axes))
-                                           (numerics-axis-width (nth i axes)))))))))
+            do (setf (nth j (nth (aref rows k) matrix)) (aref values k))))))

@@ -40,7 +40,8 @@
 
 (defun numerics-settled-rates (rates solved)
   "RATES with X divided by M as far as it goes. SOLVED, of constant groups: nil, they stay in M;
-:regular, those that are singular or long; t, none, and a singular one is an error."
+:regular, those that are singular or long; :rated, states without rates alone; t, none. A singular
+one that may not stay is an error."
   (if (null (forms-rates-mass rates))
       rates
       (let* ((rows (forms-rates-mass rates)) (copy (copy-forms-rates rates)) (kept '())
@@ -74,7 +75,8 @@
          (singular (or (every #'null rows) (and numbers (numerics-kernel-of group numbers))))
          (names (numerics-guarded-names rates group))
          (stays (if singular
-                    (not (eq solved t))
+                    (or (member solved '(nil :regular))
+                        (and (eq solved :rated) (every #'null rows)))
                     (and constant (cdr group) (numerics-mass-stays-p group solved)))))
     (when (and singular (not stays))
       (if (every #'null rows) (numerics-fault-algebraic names) (numerics-fault-group names)))

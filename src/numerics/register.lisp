@@ -81,7 +81,7 @@
 (core-act "Simulate" "plot" :any "numerics/time_plot" "numerics_time_plot" "picture" "curves"
   "Simulate")
 
-(core-rule "window" :any "numerics/plane" "numerics_window" "horizontal" "vertical"
+(core-rule "window" :any "numerics/plane_axes" "numerics_window" "horizontal" "vertical"
   '("start" ((mlist simp))))
 (core-rule-tried "rest_points_or_why" :any "rest_points")
 (core-rule "plane" :any "numerics/plane" "numerics_plane" "rates" *numerics-values* "window")

@@ -7,8 +7,9 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/plane" "numerics/problem" "numerics/run_options"
-                "numerics/trajectories"))
+  (core-require "numerics/decimals" "numerics/followed_branch" "numerics/plane"
+                "numerics/plane_axes" "numerics/problem" "numerics/run"
+                "numerics/run_options" "numerics/trajectories"))
 
 (defstruct numerics-rest
   place      ; (u v)
@@ -17,6 +18,7 @@
 
 (defstruct numerics-rests
   (found '())  ; numerics-rest records
+  (elsewhere 0) ; how many lie on other branches
   (about '())) ; sentences, newest first
 
 (defun numerics-say-about (rests control &rest arguments)
@@ -95,7 +97,25 @@
           (if (eq found :open)
               (numerics-say-about rests "the family of equilibria ~a is not marked"
                                   (core-cut (core-words (list solution))))
-              (dolist (rest found) (numerics-add-rest rests rest))))))))
+              (dolist (rest found)
+                (if (numerics-rest-on-branch-p plane solution rest)
+                    (numerics-add-rest rests rest)
+                    (incf (numerics-rests-elsewhere rests))))))))))
+
+(defun numerics-rest-on-branch-p (plane solution rest)
+  "Whether REST of SOLUTION has what the branch of PLANE has there."
+  (let* ((branch (numerics-plane-branch plane))
+         (state (and branch (apply #'numerics-state-over plane
+                                   (mapcar #'numerics-number-or-nil (numerics-rest-values rest))))))
+    (or (null branch)
+        (and state
+             (loop for name in (numerics-branch-names branch)
+                   for scale in (numerics-branch-scales branch)
+                   for k from 2
+                   for value = (numerics-number-or-nil (numerics-rest-value name solution))
+                   always (and value
+                               (< (abs (- value (aref state k)))
+                                  (* 1d-7 (+ scale (abs value))))))))))
 
 (defun numerics-add-rest (rests rest)
   "REST among RESTS, true where it is new."
@@ -171,7 +191,33 @@
            (numerics-say-zeros rests plane (if points nil said))))
     (setf (numerics-rests-found rests)
           (sort (numerics-rests-found rests) #'numerics-before-p :key #'numerics-rest-place))
+    (when (numerics-plane-branch plane) (numerics-say-branch rests plane))
     rests))
+
+(defun numerics-say-branch (rests plane)
+  (numerics-say-point rests plane (numerics-plane-branch plane))
+  (when (notevery (lambda (place) (numerics-reached-p plane place)) (numerics-newton-places))
+    (numerics-say-about rests "curves end where it does"))
+  (when (numerics-plane-unrated plane)
+    (numerics-say-about rests "where curves end the rate of ~{~a~^, ~} is infinite"
+                        (mapcar #'numerics-name-text (numerics-plane-unrated plane))))
+  (when (plusp (numerics-rests-elsewhere rests))
+    (numerics-say-about rests "~d equilibri~:[um~;a~] off the branch ~:*~:[is~;are~] not marked"
+                        (numerics-rests-elsewhere rests) (> (numerics-rests-elsewhere rests) 1))))
+
+(defun numerics-say-point (rests plane branch)
+  (let ((names (numerics-branch-names branch))
+        (axes (mapcar #'numerics-axis-name (numerics-plane-axes plane))))
+    (numerics-say-about
+     rests "~{~a~^, ~} ~:[is~;are~] on the branch through ~{~a = ~a~^, ~}"
+     (mapcar #'numerics-name-text names) (cdr names)
+     (loop for name in (append axes names)
+           for x across (numerics-branch-known branch)
+           append (list (numerics-name-text name) (numerics-short-number x))))))
+
+(defun numerics-reached-p (plane place)
+  (apply #'numerics-state-over plane
+         (mapcar #'numerics-at-place (numerics-plane-axes plane) place)))
 
 (defun numerics-before-p (place other)
   (destructuring-bind ((u v) (s z)) (list place other)

@@ -7,7 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "numerics/automatic" "numerics/plane" "numerics/problem"))
+  (core-require "numerics/automatic" "numerics/followed_branch" "numerics/plane"
+                "numerics/plane_axes" "numerics/problem"))
 
 (defparameter *numerics-curve-length* 30d0
   "Windows that a trajectory winds through in one direction.")
@@ -25,7 +26,7 @@
 ;;; One direction. A trace looks on while a method steps.
 
 (defstruct numerics-trace
-  axes rests
+  axes rests branch
   visits                    ; cell -> (sense length du dv) of the curve where it came there
   (sense 1d0)               ; -1 backwards in time
   start                     ; (u v)
@@ -118,8 +119,13 @@ there."
                  (numerics-apart middle (numerics-place-of trace (numerics-step-after step))))))
     (if (< way 1d2) (max 4 (ceiling way *numerics-curve-spacing*)) 4)))
 
+(defun numerics-off-branch-p (trace step)
+  (let ((branch (numerics-trace-branch trace)))
+    (and branch (not (numerics-on-branch-p branch (numerics-step-after step))))))
+
 (defun numerics-see-trace (trace step state)
   "An observer's answer to STEP; STATE is changed."
+  (when (numerics-off-branch-p trace step) (return-from numerics-see-trace :stop))
   (loop with pieces = (numerics-pieces trace step state)
         for k from 1 to pieces
         do (funcall (numerics-step-interpolate step) (/ (coerce k 'double-float) pieces) state)
@@ -131,21 +137,26 @@ there."
   "Controls of a trajectory that begins with SPEED, in windows per unit of time."
   (make-numerics-controls
    :end (/ 1d6 speed) :most-steps *numerics-curve-steps*
-   :scales (map 'numerics-vector #'numerics-axis-width (numerics-plane-axes plane))))
+   :scales (coerce (append (mapcar #'numerics-axis-width (numerics-plane-axes plane))
+                           (and (numerics-plane-branch plane)
+                                (numerics-branch-scales (numerics-plane-branch plane))))
+                   'numerics-vector)))
 
 (defun numerics-trace-from (plane sense place rests visits)
   "The trace in PLANE from PLACE, forwards in time or, where SENSE is -1, backwards; nil where that
 stands still."
   (let* ((axes (numerics-plane-axes plane)) (speed (numerics-speed plane place))
          (trace (make-numerics-trace :axes axes :rests rests :start place :last place :looked place
-                                     :visits visits :sense sense))
-         (scratch (numerics-zeros 2)))
+                                     :visits visits :sense sense
+                                     :branch (numerics-plane-branch plane)))
+         (state (apply #'numerics-state-over plane (mapcar #'numerics-at-place axes place)))
+         (scratch (and state (copy-seq state))))
     (when (and (numerics-finite-p speed) (> speed 0d0) (numerics-finite-p (/ 1d6 speed)))
       (numerics-automatic (if (plusp sense)
                               (numerics-plane-forwards plane)
                               (numerics-plane-backwards plane))
                           (numerics-curve-controls plane speed) (numerics-moment 0d0)
-                          (map 'numerics-vector #'numerics-at-place axes place)
+                          state
                           (lambda (step) (numerics-see-trace trace step scratch)))
       trace)))
 
@@ -247,7 +258,7 @@ stands still."
           for (cell distance) = (multiple-value-list (numerics-farthest-cell net))
           while (and cell (>= distance (* *numerics-separation* *numerics-cells*)))
           do (let ((curve (numerics-curve-through plane (numerics-cell-middle cell) rests)))
-               (core-progress "~d trajectories" (length found))
+               (core-progress "~d trajector~:@p" (length found))
                (setf (aref net (first cell) (second cell)) t)
                (when curve
                  (numerics-mark-cells net (numerics-curve-points curve))
