@@ -2,13 +2,9 @@
 ;;; What a rule gave, with what was said meanwhile: checks, what is left out, warnings, the form to
 ;;; which the derivation came. Whoever takes a middle quantity repeats them. Those that the register
 ;;; marks as kept (circuit, network, scene) stay for the calls that follow, the last few of them,
-;;; under a digest of what they depend on, the facts that hold and the version. Look first at
-;;; archive-derive.
+;;; under what they depend on, the facts that hold and the version. Look first at archive-derive.
 
 (in-package :maxima)
-
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/digest" "archive/speller"))
 
 (defstruct archive-derived
   value
@@ -40,15 +36,24 @@ archive-derived, was said before."
   (dolist (text (reverse (archive-derived-warnings derived))) (core-warn "~a" text))
   (unless (eq (archive-derived-level derived) '$canonical) (core-factored)))
 
-(defun archive-kept-key (name digest options)
-  "The key of the quantity NAME that depends on what has DIGEST and OPTIONS."
-  (format nil "~a ~a [~a] ~a ~a" *core-version* name options digest
-          (archive-digest (format nil "~{~a~%~}" (mapcar #'archive-spell (core-facts))))))
+(defun archive-kept-key (name sources options)
+  "The key of the quantity NAME that depends on SOURCES and OPTIONS."
+  (list name sources options (core-facts) *core-version*))
+
+(defun archive-copied (e)
+  "E with conses of its own: a person may write into a list that he gave. Lists may be long."
+  (if (atom e)
+      e
+      (let* ((copy (list (archive-copied (car e)))) (end copy))
+        (loop while (consp (setq e (cdr e)))
+              do (setf (cdr end) (list (archive-copied (car e))) end (cdr end)))
+        (setf (cdr end) e)
+        copy)))
 
 (defun archive-kept (key make)
   "The archive-derived kept under KEY, else that which the function MAKE gives, kept from now on."
-  (let ((found (assoc key *archive-kept* :test #'string=)))
-    (unless found (setq found (cons key (funcall make))))
+  (let ((found (assoc key *archive-kept* :test #'equal)))
+    (unless found (setq found (cons (archive-copied key) (funcall make))))
     (setq *archive-kept*
           (cons found (remove found *archive-kept*)))
     (when (nthcdr *archive-kept-most* *archive-kept*)

@@ -157,11 +157,21 @@
   "The keys of [system] that count in `from': what is assumed of the parameters always does."
   (union '("parameters") (archive-need-keys need) :test #'equal))
 
+(defun archive-counted-extras (need name)
+  "The extras of NEED that count in what NAME depends on, in one order."
+  (let ((own (format nil "~a edited " name)))
+    (sort (remove-if (lambda (extra) (eql 0 (search own extra)))
+                     (copy-list (archive-need-extras need)))
+          #'string<)))
+
 (defun archive-digest-of (call name)
   "The digest `from' of the result NAME: what it was computed from."
   (let ((need (archive-needs call name)))
     (archive-from-digest (archive-call-archive call) (archive-counted-keys need)
-                         (sort (remove-if (lambda (extra)
-                                            (eql 0 (search (format nil "~a edited " name) extra)))
-                                          (copy-list (archive-need-extras need)))
-                               #'string<))))
+                         (archive-counted-extras need name))))
+
+(defun archive-sources-of (call name)
+  "The same as data, which are quicker to compare than to spell."
+  (let ((need (archive-needs call name)))
+    (list (archive-counted-values (archive-call-archive call) (archive-counted-keys need))
+          (archive-counted-extras need name))))
