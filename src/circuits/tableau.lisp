@@ -81,17 +81,13 @@
 ;;; Nodes. Each part that branches and windings join has a node of zero potential.
 
 (defun circuits-joined-pairs (tableau)
-  (let ((circuit (circuits-tableau-circuit tableau)))
-    (append (map 'list #'$circuits_ends (circuits-tableau-branches tableau))
-            (loop for transformer in (cdr (circuits-circuit-transformers circuit))
-                  collect (circuits-transformer-pair transformer)
-                  collect (circuits-transformer-driven transformer)))))
+  ($circuits_all_ends (cons '(mlist) (coerce (circuits-tableau-branches tableau) 'list))
+                      (circuits-circuit-transformers (circuits-tableau-circuit tableau))))
 
 (defun circuits-parts-of-nodes (tableau)
   "Lists of nodes, that of zero potential first."
   (let ((datum (circuits-circuit-datum (circuits-tableau-circuit tableau))))
-    (loop for (nil . nodes) in (cdr ($circuits_pieces
-                                     (cons '(mlist simp) (circuits-joined-pairs tableau))))
+    (loop for (nil . nodes) in (cdr ($circuits_pieces (circuits-joined-pairs tableau)))
           collect (if (member datum nodes) (cons datum (remove datum nodes)) nodes))))
 
 (defun circuits-live-nodes (tableau)
