@@ -9,8 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/plain_simplifier" "archive/simplify" "archive/speller" "archive/tokens"
-                "archive/types"))
+  (core-require "archive/plain_simplifier" "archive/speller" "archive/tokens" "archive/types"))
 
 (defparameter *archive-exact-digits* 15 "Digits that a double keeps of every decimal.")
 (defparameter *archive-inverse-digits* 8

@@ -80,12 +80,12 @@
 
 ;; All names
 
-(defun archive-branch-names (description)
+(defun archive-branch-names (description states-of-row)
   "Two values: names that the branches declare, and names that their values use; `states' give
-labels of branches, or values where there are none."
+labels of branches, or values where there are none. STATES-OF-ROW tells the names of its state."
   (let ((rows (cdr ($core_get description '$branches '((mlist)))))
         (stated (archive-rights ($core_get description '$states '((mlist))))))
-    (values (append (mapcan #'archive-row-states rows)
+    (values (append (loop for row in rows append (funcall states-of-row row))
                     (and rows (copy-list stated))
                     (loop for row in rows when (archive-equation-p row) collect (second row)))
             (archive-used-names
@@ -105,9 +105,10 @@ labels of branches, or values where there are none."
             (loop for (nil name value) in (cdr description)
                   when (stringp name) append (section (archive-section-word name) (cdr value))))))
 
-(defun archive-declared-and-used (kind description)
+(defun archive-declared-and-used (kind description states-of-row)
   "Two values: the names that DESCRIPTION declares, and those that it uses."
-  (multiple-value-bind (branch-declares branch-uses) (archive-branch-names description)
+  (multiple-value-bind (branch-declares branch-uses)
+      (archive-branch-names description states-of-row)
     (values (append '($t) branch-declares (archive-momentum-names description)
                     (archive-rotor-angles description)
                     (archive-map-keys #'archive-declared-by kind description))
@@ -115,12 +116,19 @@ labels of branches, or values where there are none."
 
 (defun archive-known-names (kind description)
   "The names that stand in DESCRIPTION."
-  (multiple-value-call #'append (archive-declared-and-used kind description)))
+  (multiple-value-call #'append
+    (archive-declared-and-used kind description #'archive-row-states)))
 
 (defun archive-free-symbols (kind description)
-  "The names that DESCRIPTION uses and does not declare, sorted."
-  (multiple-value-bind (declared used) (archive-declared-and-used kind description)
-    (sort (mapcar #'core-spelling (archive-each-once used declared)) #'string<)))
+  "The names that DESCRIPTION uses and does not declare, sorted. Names that states have by default
+are looked at where something is left."
+  (flet ((free (states-of-row)
+           (multiple-value-bind (declared used)
+               (archive-declared-and-used kind description states-of-row)
+             (archive-each-once used declared))))
+    (sort (mapcar #'core-spelling
+                  (and (free #'archive-row-own-state) (free #'archive-row-states)))
+          #'string<)))
 
 (defun archive-warn-free-symbols (kind description)
   (let ((free (archive-free-symbols kind description)))
