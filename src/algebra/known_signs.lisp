@@ -144,6 +144,12 @@ a fact of one name alone says is then known; the others are given back, to be lo
 
 (defun algebra-learn-product (product)
   "From the sign of a product what is open of its factors."
+  (let ((name (car (second product))))
+    (if (and (algebra-of-one-name-p product) (null (algebra-entry-of-item name)))
+        (algebra-learn name (first product))
+        (algebra-learn-factors product))))
+
+(defun algebra-learn-factors (product)
   (destructuring-bind (sign . factors) product
     (when (member sign '($pos $neg $pn))
       (loop for (factor) in factors do (algebra-learn factor '$pn)))
