@@ -36,24 +36,14 @@ archive-derived, was said before."
   (dolist (text (reverse (archive-derived-warnings derived))) (core-warn "~a" text))
   (unless (eq (archive-derived-level derived) '$canonical) (core-factored)))
 
-(defun archive-kept-key (name sources options)
-  "The key of the quantity NAME that depends on SOURCES and OPTIONS."
-  (list name sources options (core-facts) *core-version*))
-
-(defun archive-copied (e)
-  "E with conses of its own: a person may write into a list that he gave. Lists may be long."
-  (if (atom e)
-      e
-      (let* ((copy (list (archive-copied (car e)))) (end copy))
-        (loop while (consp (setq e (cdr e)))
-              do (setf (cdr end) (list (archive-copied (car e))) end (cdr end)))
-        (setf (cdr end) e)
-        copy)))
+(defun archive-kept-key (name sources options facts)
+  "The key of the quantity NAME that depends on SOURCES, OPTIONS and FACTS."
+  (list name sources options facts *core-version*))
 
 (defun archive-kept (key make)
   "The archive-derived kept under KEY, else that which the function MAKE gives, kept from now on."
   (let ((found (assoc key *archive-kept* :test #'equal)))
-    (unless found (setq found (cons (archive-copied key) (funcall make))))
+    (unless found (setq found (cons key (funcall make))))
     (setq *archive-kept*
           (cons found (remove found *archive-kept*)))
     (when (nthcdr *archive-kept-most* *archive-kept*)

@@ -173,5 +173,24 @@
 (defun archive-sources-of (call name)
   "The same as data, which are quicker to compare than to spell."
   (let ((need (archive-needs call name)))
-    (list (archive-counted-values (archive-call-archive call) (archive-counted-keys need))
+    (list (archive-values-of call (archive-counted-keys need))
           (archive-counted-extras need name))))
+
+(defun archive-values-of (call keys)
+  "What KEYS of the description stand for, copied, once in a CALL."
+  (let ((known (assoc keys (archive-call-sources call) :test #'equal)))
+    (unless known
+      (setq known (cons keys (archive-copied (archive-counted-values (archive-call-archive call)
+                                                                     keys))))
+      (push known (archive-call-sources call)))
+    (cdr known)))
+
+(defun archive-copied (e)
+  "E with conses of its own: a person may write into a list that he gave. Lists may be long."
+  (if (atom e)
+      e
+      (let* ((copy (list (archive-copied (car e)))) (end copy))
+        (loop while (consp (setq e (cdr e)))
+              do (setf (cdr end) (list (archive-copied (car e))) end (cdr end)))
+        (setf (cdr end) e)
+        copy)))
