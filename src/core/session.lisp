@@ -216,23 +216,9 @@ has none."
                           (fmakunbound name)))))
       (unwind-protect (progn (put functions) (funcall function)) (put saved)))))
 
-(defun core-place-of-function (name)
-  "Where the Lisp keeps what NAME calls, as long as it runs: quicker to look at than by the name."
-  #+sbcl (sb-int:find-fdefn name)
-  #-sbcl name)
-
-(defun core-called-p (definition place)
-  "Whether a call by way of PLACE runs DEFINITION itself."
-  #+sbcl (eq (sb-kernel:fdefn-fun place) definition)
-  #-sbcl (and (fboundp place) (eq (symbol-function place) definition)))
-
-(defvar *core-born-places* (mapcar #'core-place-of-function (mapcar #'car *core-born-functions*)))
-
 (defun core-replaced-functions ()
   (loop for (name . definition) in *core-born-functions*
-        for place in *core-born-places*
-        unless (or (core-called-p definition place)
-                   (and (fboundp name) (eq (symbol-function name) definition)))
+        unless (and (fboundp name) (eq (symbol-function name) definition))
           collect (cons name definition)))
 
 (defun core-callable-p (symbol)
