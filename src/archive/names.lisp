@@ -95,12 +95,12 @@ labels of branches, or values where there are none. STATES-OF-ROW tells the name
                                    (archive-last-fields
                                     ($core_get description '$transformers nil))))))))
 
-(defun archive-map-keys (function kind description)
-  "The lists that FUNCTION(type, value) gives for every key of DESCRIPTION, joined."
+(defun archive-typed-values (kind description)
+  "((type . value) ..) of every key of DESCRIPTION."
   (flet ((section (word equations)
            (loop for (nil name value) in equations
                  for key = (and (symbolp name) (archive-find-key kind word (core-spelling name)))
-                 append (and key (copy-list (funcall function (archive-key-type key) value))))))
+                 when key collect (cons (archive-key-type key) value))))
     (append (section "system" (cdr description))
             (loop for (nil name value) in (cdr description)
                   when (stringp name) append (section (archive-section-word name) (cdr value))))))
@@ -109,10 +109,12 @@ labels of branches, or values where there are none. STATES-OF-ROW tells the name
   "Two values: the names that DESCRIPTION declares, and those that it uses."
   (multiple-value-bind (branch-declares branch-uses)
       (archive-branch-names description states-of-row)
-    (values (append '($t) branch-declares (archive-momentum-names description)
-                    (archive-rotor-angles description)
-                    (archive-map-keys #'archive-declared-by kind description))
-            (append branch-uses (archive-map-keys #'archive-used-by kind description)))))
+    (let ((typed (archive-typed-values kind description)))
+      (flet ((names-by (function)
+               (loop for (type . value) in typed append (funcall function type value))))
+        (values (append '($t) branch-declares (archive-momentum-names description)
+                        (archive-rotor-angles description) (names-by #'archive-declared-by))
+                (append branch-uses (names-by #'archive-used-by)))))))
 
 (defun archive-known-names (kind description)
   "The names that stand in DESCRIPTION."
@@ -167,9 +169,10 @@ open."
 
 (defun archive-check-parameters (description)
   (let ((parameters (archive-fact-names ($core_get description '$parameters '((mlist)))))
-        (fixed (archive-lefts ($core_get description '$values '((mlist))))))
-    (archive-check-laws description (archive-moving-names description))
-    (loop for (name . what) in (archive-moving-names description)
+        (fixed (archive-lefts ($core_get description '$values '((mlist)))))
+        (moving (archive-moving-names description)))
+    (archive-check-laws description moving)
+    (loop for (name . what) in moving
           do (when (member name parameters)
                (core-fault "system" '$parameters "~a is both ~a and a parameter"
                            (core-spelling name) what))
