@@ -85,7 +85,7 @@
          (description (fuzz-open-description circuit laws solution)))
     (multiple-value-bind (opened text)
         (fuzz-tried (lambda ()
-                      (setq model (mfuncall '$circuits_read_circuit description))
+                      (setq model (fuzz-circuit-read description))
                       (mfuncall '$circuits_opened_tableau model)))
       (cond ((and text (fuzz-any-in-p *fuzz-refusals* text)) nil)
             ((and text (fuzz-any-in-p *fuzz-unserved-words* text))

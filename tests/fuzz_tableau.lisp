@@ -424,13 +424,16 @@ capacitor, a loop of source and capacitor, a cut of source and inductor."
 
 (defvar *fuzz-served* 0)
 
+(defun fuzz-circuit-read (description)
+  (mfuncall '$circuits_closed_circuit (mfuncall '$circuits_read_open_circuit description)))
+
 (defun fuzz-fault (circuit moving)
   "nil, or what is wrong with what is said of CIRCUIT."
   (let* ((description (fuzz-description circuit moving)) (degree (fuzz-degree circuit))
          (s (if moving (fuzz-any) 0)) (model nil))
     (multiple-value-bind (tableau text)
         (fuzz-tried (lambda ()
-                      (setq model (mfuncall '$circuits_read_circuit description))
+                      (setq model (fuzz-circuit-read description))
                       (mfuncall '$circuits_solved_tableau model)))
       (cond ((and text (fuzz-any-in-p *fuzz-refusals* text)) nil)
             ((and text (fuzz-any-in-p *fuzz-singular* text))
@@ -512,11 +515,10 @@ inductors and minus the currents of capacitors."
       (multiple-value-bind (tableau text)
           (fuzz-tried (lambda ()
                         (mfuncall '$circuits_solved_tableau
-                                  (mfuncall '$circuits_read_circuit
-                                            (fuzz-description
-                                             (fuzz-with-value circuit (fuzz-row-label row)
-                                                              '$letter)
-                                             t)))))
+                                  (fuzz-circuit-read
+                                   (fuzz-description
+                                    (fuzz-with-value circuit (fuzz-row-label row) '$letter)
+                                    t)))))
         (unless text
           (let ((order (length (cdr ($circuits_tableau_states tableau))))
                 (factors (cdr ($circuits_order_drops tableau))))

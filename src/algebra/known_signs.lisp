@@ -104,17 +104,25 @@
         (t (cons (remove 'simp (car e)) (mapcar #'algebra-exact (cdr e))))))
 
 (defun algebra-fact-products (facts)
-  "Those of all FACTS, each learned when it is met: with the signs of names roots get shorter."
+  "Those of all FACTS, each learned when it is met: with the signs of names roots get shorter. What
+a fact of one name alone says is then known; the others are given back, to be looked at again."
   (loop for fact in (stable-sort (copy-list facts) #'< :key #'algebra-size)
         for product = (algebra-fact-product fact)
         do (mapc #'algebra-learn-product product)
-        append product))
+        append (remove-if #'algebra-of-one-name-p product)))
+
+(defun algebra-of-one-name-p (product)
+  (destructuring-bind (sign (factor . power) . others) product
+    (declare (ignore sign))
+    (and (symbolp factor) (= power 1) (null others))))
 
 (defun algebra-fact-product (fact)
   "((sign (factor . power) ..)), or nothing where FACT is no formula."
   (multiple-value-bind (e sign) (core-fact-difference fact)
-    (let ((factors (algebra-quietly
-                    (lambda () (algebra-ratio-factors (simplify (algebra-exact e)))))))
+    (let ((factors (if (core-users-name-p e)
+                       (list (cons e 1))
+                       (algebra-quietly
+                        (lambda () (algebra-ratio-factors (simplify (algebra-exact e))))))))
       (and factors (list (cons sign factors))))))
 
 (defun algebra-ratio-factors (e)
@@ -136,6 +144,12 @@
 
 (defun algebra-learn-product (product)
   "From the sign of a product what is open of its factors."
+  (let ((name (car (second product))))
+    (if (and (algebra-of-one-name-p product) (null (algebra-entry-of-item name)))
+        (algebra-learn name (first product))
+        (algebra-learn-factors product))))
+
+(defun algebra-learn-factors (product)
   (destructuring-bind (sign . factors) product
     (when (member sign '($pos $neg $pn))
       (loop for (factor) in factors do (algebra-learn factor '$pn)))

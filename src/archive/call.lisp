@@ -16,6 +16,7 @@
   (values (make-hash-table :test #'equal))  ; name -> value computed or read in this call
   (derived (make-hash-table :test #'equal)) ; name -> archive-derived of what is no public step
   (needs (make-hash-table :test #'equal))   ; name -> archive-need
+  (sources '())                             ; (keys . values): what they stand for in the archive
   (new '())                                 ; steps computed, newest first
   (facts '()))
 

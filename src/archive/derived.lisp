@@ -2,13 +2,9 @@
 ;;; What a rule gave, with what was said meanwhile: checks, what is left out, warnings, the form to
 ;;; which the derivation came. Whoever takes a middle quantity repeats them. Those that the register
 ;;; marks as kept (circuit, network, scene) stay for the calls that follow, the last few of them,
-;;; under a digest of what they depend on, the facts that hold and the version. Look first at
-;;; archive-derive.
+;;; under what they depend on, the facts that hold and the version. Look first at archive-derive.
 
 (in-package :maxima)
-
-(eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/digest" "archive/speller"))
 
 (defstruct archive-derived
   value
@@ -40,14 +36,13 @@ archive-derived, was said before."
   (dolist (text (reverse (archive-derived-warnings derived))) (core-warn "~a" text))
   (unless (eq (archive-derived-level derived) '$canonical) (core-factored)))
 
-(defun archive-kept-key (name digest options)
-  "The key of the quantity NAME that depends on what has DIGEST and OPTIONS."
-  (format nil "~a ~a [~a] ~a ~a" *core-version* name options digest
-          (archive-digest (format nil "~{~a~%~}" (mapcar #'archive-spell (core-facts))))))
+(defun archive-kept-key (name sources options facts)
+  "The key of the quantity NAME that depends on SOURCES, OPTIONS and FACTS."
+  (list name sources options facts *core-version*))
 
 (defun archive-kept (key make)
   "The archive-derived kept under KEY, else that which the function MAKE gives, kept from now on."
-  (let ((found (assoc key *archive-kept* :test #'string=)))
+  (let ((found (assoc key *archive-kept* :test #'equal)))
     (unless found (setq found (cons key (funcall make))))
     (setq *archive-kept*
           (cons found (remove found *archive-kept*)))

@@ -93,8 +93,15 @@
                  (:unless (unless (archive-given-p group other)
                             (format nil ", and so is ~a" other)))))))))
 
+(defvar *archive-default-values* (make-hash-table :test #'eq)
+  "Key -> its default as a checked value: its text is read once.")
+
 (defun archive-default-value (key)
   "The default of KEY as a checked value."
+  (multiple-value-bind (value known) (gethash key *archive-default-values*)
+    (if known value (setf (gethash key *archive-default-values*) (archive-read-default key)))))
+
+(defun archive-read-default (key)
   (values (archive-typed (archive-key-type key) (archive-parse-value (archive-default key)))))
 
 (defun archive-converted (section key value)

@@ -89,7 +89,7 @@
 (defun archive-program-serves-p (name arguments)
   "Whether NAME has a program too, and the form is left to us."
   (and arguments
-       (member name (archive-program-names) :test #'string=)
+       (archive-program-rule-p (gethash name *core-rules*))
        (loop for argument in arguments
              never (and (archive-form-option-p argument)
                         (not (eq (caddr argument) '$auto))))))

@@ -9,8 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "archive/plain_simplifier" "archive/simplify" "archive/speller" "archive/tokens"
-                "archive/types"))
+  (core-require "archive/plain_simplifier" "archive/speller" "archive/tokens" "archive/types"))
 
 (defparameter *archive-exact-digits* 15 "Digits that a double keeps of every decimal.")
 (defparameter *archive-inverse-digits* 8
@@ -134,8 +133,18 @@
       (push text *core-warnings*)
       (core-note "~a" text))))
 
+(defun archive-holds-decimal-p (e)
+  (cond ((archive-decimal-p e) t)
+        ((archive-plain-part-p e) nil)
+        (t (loop for part in (cdr e) thereis (archive-holds-decimal-p part)))))
+
 (defun archive-exact-decimals (arguments &optional numerical)
   "ARGUMENTS of a call, options included, with fractions for decimals; NUMERICAL: of a run."
+  (if (some #'archive-holds-decimal-p arguments)
+      (archive-made-exact arguments numerical)
+      arguments))
+
+(defun archive-made-exact (arguments numerical)
   (let* ((*archive-decimals* '())
          (*archive-takes-long-decimals* numerical)
          (exact (archive-with-plain-simplifier (mapcar #'archive-without-decimals arguments))))
@@ -155,10 +164,17 @@
        (integerp (fourth e))
        (integerp (fifth e))))
 
+(defun archive-holds-sum-p (e)
+  "Whether a sum, a product or a verb is in E, or a name that is spelled so."
+  (if (atom e)
+      (member e '(%sum %product $diff $integrate))
+      (or (archive-head-p e '%sum '%product '$diff '$integrate)
+          (loop for part in (cdr e) thereis (archive-holds-sum-p part)))))
+
 (defun archive-written-out (e)
   "E with its definite sums and products carried out, and nouns for verbs, from the inside."
   (cond ((atom e) e) ; a name too, which may be diff
-        ((loop for word in '(%sum %product $diff $integrate) never (archive-contains-p e word)) e)
+        ((not (archive-holds-sum-p e)) e)
         ((archive-definite-sum-p e) (archive-sum-written-out e))
         ((archive-head-p e '$diff '$integrate) (archive-as-noun e))
         (t (archive-with-parts e (mapcar #'archive-written-out (cdr e))))))
@@ -182,4 +198,6 @@
 
 (defun archive-sums-written-out (arguments)
   "ARGUMENTS of a call with their definite sums and products carried out, and nouns for verbs."
-  (archive-with-plain-simplifier (mapcar #'archive-written-out arguments)))
+  (if (some #'archive-holds-sum-p arguments)
+      (archive-with-plain-simplifier (mapcar #'archive-written-out arguments))
+      arguments))

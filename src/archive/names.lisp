@@ -80,12 +80,12 @@
 
 ;; All names
 
-(defun archive-branch-names (description)
+(defun archive-branch-names (description states-of-row)
   "Two values: names that the branches declare, and names that their values use; `states' give
-labels of branches, or values where there are none."
+labels of branches, or values where there are none. STATES-OF-ROW tells the names of its state."
   (let ((rows (cdr ($core_get description '$branches '((mlist)))))
         (stated (archive-rights ($core_get description '$states '((mlist))))))
-    (values (append (mapcan #'archive-row-states rows)
+    (values (append (loop for row in rows append (funcall states-of-row row))
                     (and rows (copy-list stated))
                     (loop for row in rows when (archive-equation-p row) collect (second row)))
             (archive-used-names
@@ -95,32 +95,42 @@ labels of branches, or values where there are none."
                                    (archive-last-fields
                                     ($core_get description '$transformers nil))))))))
 
-(defun archive-map-keys (function kind description)
-  "The lists that FUNCTION(type, value) gives for every key of DESCRIPTION, joined."
+(defun archive-typed-values (kind description)
+  "((type . value) ..) of every key of DESCRIPTION."
   (flet ((section (word equations)
            (loop for (nil name value) in equations
                  for key = (and (symbolp name) (archive-find-key kind word (core-spelling name)))
-                 append (and key (copy-list (funcall function (archive-key-type key) value))))))
+                 when key collect (cons (archive-key-type key) value))))
     (append (section "system" (cdr description))
             (loop for (nil name value) in (cdr description)
                   when (stringp name) append (section (archive-section-word name) (cdr value))))))
 
-(defun archive-declared-and-used (kind description)
+(defun archive-declared-and-used (kind description states-of-row)
   "Two values: the names that DESCRIPTION declares, and those that it uses."
-  (multiple-value-bind (branch-declares branch-uses) (archive-branch-names description)
-    (values (append '($t) branch-declares (archive-momentum-names description)
-                    (archive-rotor-angles description)
-                    (archive-map-keys #'archive-declared-by kind description))
-            (append branch-uses (archive-map-keys #'archive-used-by kind description)))))
+  (multiple-value-bind (branch-declares branch-uses)
+      (archive-branch-names description states-of-row)
+    (let ((typed (archive-typed-values kind description)))
+      (flet ((names-by (function)
+               (loop for (type . value) in typed append (funcall function type value))))
+        (values (append '($t) branch-declares (archive-momentum-names description)
+                        (archive-rotor-angles description) (names-by #'archive-declared-by))
+                (append branch-uses (names-by #'archive-used-by)))))))
 
 (defun archive-known-names (kind description)
   "The names that stand in DESCRIPTION."
-  (multiple-value-call #'append (archive-declared-and-used kind description)))
+  (multiple-value-call #'append
+    (archive-declared-and-used kind description #'archive-row-states)))
 
 (defun archive-free-symbols (kind description)
-  "The names that DESCRIPTION uses and does not declare, sorted."
-  (multiple-value-bind (declared used) (archive-declared-and-used kind description)
-    (sort (mapcar #'core-spelling (archive-each-once used declared)) #'string<)))
+  "The names that DESCRIPTION uses and does not declare, sorted. Names that states have by default
+are looked at where something is left."
+  (flet ((free (states-of-row)
+           (multiple-value-bind (declared used)
+               (archive-declared-and-used kind description states-of-row)
+             (archive-each-once used declared))))
+    (sort (mapcar #'core-spelling
+                  (and (free #'archive-row-own-state) (free #'archive-row-states)))
+          #'string<)))
 
 (defun archive-warn-free-symbols (kind description)
   (let ((free (archive-free-symbols kind description)))
@@ -159,9 +169,10 @@ open."
 
 (defun archive-check-parameters (description)
   (let ((parameters (archive-fact-names ($core_get description '$parameters '((mlist)))))
-        (fixed (archive-lefts ($core_get description '$values '((mlist))))))
-    (archive-check-laws description (archive-moving-names description))
-    (loop for (name . what) in (archive-moving-names description)
+        (fixed (archive-lefts ($core_get description '$values '((mlist)))))
+        (moving (archive-moving-names description)))
+    (archive-check-laws description moving)
+    (loop for (name . what) in moving
           do (when (member name parameters)
                (core-fault "system" '$parameters "~a is both ~a and a parameter"
                            (core-spelling name) what))

@@ -157,11 +157,40 @@
   "The keys of [system] that count in `from': what is assumed of the parameters always does."
   (union '("parameters") (archive-need-keys need) :test #'equal))
 
+(defun archive-counted-extras (need name)
+  "The extras of NEED that count in what NAME depends on, in one order."
+  (let ((own (format nil "~a edited " name)))
+    (sort (remove-if (lambda (extra) (eql 0 (search own extra)))
+                     (copy-list (archive-need-extras need)))
+          #'string<)))
+
 (defun archive-digest-of (call name)
   "The digest `from' of the result NAME: what it was computed from."
   (let ((need (archive-needs call name)))
     (archive-from-digest (archive-call-archive call) (archive-counted-keys need)
-                         (sort (remove-if (lambda (extra)
-                                            (eql 0 (search (format nil "~a edited " name) extra)))
-                                          (copy-list (archive-need-extras need)))
-                               #'string<))))
+                         (archive-counted-extras need name))))
+
+(defun archive-sources-of (call name)
+  "The same as data, which are quicker to compare than to spell."
+  (let ((need (archive-needs call name)))
+    (list (archive-values-of call (archive-counted-keys need))
+          (archive-counted-extras need name))))
+
+(defun archive-values-of (call keys)
+  "What KEYS of the description stand for, copied, once in a CALL."
+  (let ((known (assoc keys (archive-call-sources call) :test #'equal)))
+    (unless known
+      (setq known (cons keys (archive-copied (archive-counted-values (archive-call-archive call)
+                                                                     keys))))
+      (push known (archive-call-sources call)))
+    (cdr known)))
+
+(defun archive-copied (e)
+  "E with conses of its own: a person may write into a list that he gave. Lists may be long."
+  (if (atom e)
+      e
+      (let* ((copy (list (archive-copied (car e)))) (end copy))
+        (loop while (consp (setq e (cdr e)))
+              do (setf (cdr end) (list (archive-copied (car e))) end (cdr end)))
+        (setf (cdr end) e)
+        copy)))

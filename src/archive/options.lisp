@@ -54,10 +54,13 @@
       (core-error "form = program is for ~{~a~^, ~}; this function has none"
                   (archive-program-names)))))
 
+(defun archive-program-rule-p (rules)
+  "Whether one of RULES gives a program."
+  (and (find *archive-program-form* rules :key #'rule-given :test #'equal) t))
+
 (defun archive-program-names ()
   (sort (loop for name being the hash-keys of *core-rules* using (hash-value rules)
-              when (find *archive-program-form* rules :key #'rule-given :test #'equal)
-                collect name)
+              when (archive-program-rule-p rules) collect name)
         #'string<))
 
 ;;; Which options there are
@@ -148,10 +151,15 @@ neglected in a field."
 
 (defun archive-check-name (call name)
   "An error unless the call takes an option NAME."
-  (let ((taken (archive-taken-options call)))
-    (unless (member name taken :test #'string=)
-      (core-error "~a; the options are ~{~a~^, ~}"
-                  (archive-refused-option call name taken) taken))))
+  (unless (archive-always-taken-p call name)
+    (let ((taken (archive-taken-options call)))
+      (unless (member name taken :test #'string=)
+        (core-error "~a; the options are ~{~a~^, ~}"
+                    (archive-refused-option call name taken) taken)))))
+
+(defun archive-always-taken-p (call name)
+  (and (member name (archive-always-options call) :test #'string=)
+       (not (archive-argument-p call name))))
 
 (defun archive-refused-option (call name taken)
   "What to say of an option NAME that is not one of those TAKEN."

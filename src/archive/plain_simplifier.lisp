@@ -26,20 +26,25 @@
          ($algebraic nil))
      (archive-calling-plain-signs (lambda () ,@body))))
 
+(defvar *archive-kindp* nil "Maxima's own kindp while signs are plain, else nil.")
+
+(defun archive-plain-kindp (e property)
+  (and (not (archive-users-name-p e)) (funcall *archive-kindp* e property)))
+
 (defun archive-calling-plain-signs (function)
   "Calls FUNCTION while signs are those of archive-plain-sign, and nothing is known of names."
-  (let ((functions (mapcar #'symbol-function *core-sign-functions*))
-        (kindp (symbol-function 'kindp)))
-    (unwind-protect
-         (progn
-           (dolist (name (remove 'kindp *core-sign-functions*))
-             (setf (symbol-function name) #'archive-plain-sign))
-           (setf (symbol-function 'kindp)
-                 (lambda (e property)
-                   (and (not (archive-users-name-p e)) (funcall kindp e property))))
-           (funcall function))
-      (loop for name in *core-sign-functions* for old in functions
-            do (setf (symbol-function name) old)))))
+  (if *archive-kindp*
+      (funcall function)
+      (let ((functions (mapcar #'symbol-function *core-sign-functions*))
+            (*archive-kindp* (symbol-function 'kindp)))
+        (unwind-protect (progn (archive-put-plain-signs) (funcall function))
+          (loop for name in *core-sign-functions* for old in functions
+                do (setf (symbol-function name) old))))))
+
+(defun archive-put-plain-signs ()
+  (dolist (name *core-sign-functions*)
+    (setf (symbol-function name)
+          (if (eq name 'kindp) #'archive-plain-kindp #'archive-plain-sign))))
 
 ;;; Signs
 

@@ -27,16 +27,27 @@ system."
           ((member key keys :test #'string=) t)
           (whole (not (member key *archive-analysis-keys* :test #'string=))))))
 
-(defun archive-counted-lines (archive keys)
-  "The entries of the description that count, in the order of the file."
+(defun archive-counted-statements (archive keys)
+  "The statements of the description that count, each with its section before it, in the order of
+the file."
   (loop for group in (archive-groups archive)
         for section = (archive-group-section group)
         append (loop for statement in (archive-group-statements group)
-                     for key = (archive-statement-key statement)
-                     when (archive-counts-p section key (archive-kind archive) keys)
-                       collect (format nil "[~a] ~@[~a = ~]~a" section key
-                                       (core-words
-                                        (list (archive-statement-value statement)))))))
+                     when (archive-counts-p section (archive-statement-key statement)
+                                            (archive-kind archive) keys)
+                       collect (cons section statement))))
+
+(defun archive-counted-lines (archive keys)
+  "The same as texts."
+  (loop for (section . statement) in (archive-counted-statements archive keys)
+        collect (format nil "[~a] ~@[~a = ~]~a" section (archive-statement-key statement)
+                        (core-words (list (archive-statement-value statement))))))
+
+(defun archive-counted-values (archive keys)
+  "The same as data, (section key . value) each."
+  (loop for (section . statement) in (archive-counted-statements archive keys)
+        collect (list* section (archive-statement-key statement)
+                       (archive-statement-value statement))))
 
 (defun archive-from-digest (archive keys extras)
   "The digest of what a result depends on: KEYS of the description, and EXTRAS, arguments and

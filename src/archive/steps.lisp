@@ -102,8 +102,9 @@ as the size of what is neglected, and count in no digest: a formula must not dep
 of another is kept for those that take it."
   (let* ((began (get-internal-real-time))
          (derived (if (and (rule-kept rule) (archive-call-archive call))
-                      (archive-kept (archive-kept-key name (archive-digest-of call name)
-                                                      (archive-options-of call name))
+                      (archive-kept (archive-kept-key name (archive-sources-of call name)
+                                                      (archive-options-of call name)
+                                                      (archive-copied (core-facts)))
                                     (lambda () (archive-derive-now call name rule)))
                       (archive-derive-now call name rule))))
     (cond ((gethash name *core-publics*)

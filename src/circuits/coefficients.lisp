@@ -48,7 +48,14 @@
         ((and (rationalp x) (rationalp y)) (/ x y))
         (t (circuits-inside (div (circuits-outside x) (circuits-outside y))))))
 
-(defun circuits-negative (x) (circuits-times -1 x))
+(defun circuits-negative (x)
+  (if (circuits-plain-name-p x)
+      (list '(mtimes simp) -1 x)
+      (circuits-times -1 x)))
+
+(defun circuits-plain-name-p (x)
+  "Whether -x is already simple: most coefficients are 1, -1 and names."
+  (and x (symbolp x) (core-users-name-p x)))
 
 ;;; Rows: hash tables from columns to coefficients that are not 0.
 

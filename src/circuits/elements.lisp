@@ -66,3 +66,11 @@ potentials of what varying sources force, once they are derived."
 (defun $circuits_ends (branch)
   "[tail, head]"
   (list '(mlist simp) (circuits-branch-tail branch) (circuits-branch-head branch)))
+
+(defun $circuits_all_ends (branches transformers)
+  "The same of all BRANCHES, then of both windings of each of TRANSFORMERS."
+  (cons '(mlist simp)
+        (append (mapcar #'$circuits_ends (cdr branches))
+                (loop for transformer in (cdr transformers)
+                      collect (circuits-transformer-pair transformer)
+                      collect (circuits-transformer-driven transformer)))))

@@ -37,6 +37,15 @@
                 do (setf (gethash label taken) 1)
                 collect label))))
 
+(defun $circuits_with_all_labels (branches)
+  "BRANCHES, each with its label."
+  (cons '(mlist simp)
+        (loop for branch in (cdr branches)
+              for label in (cdr ($circuits_all_labels branches))
+              collect (let ((labelled (copy-circuits-branch branch)))
+                        (setf (circuits-branch-label labelled) label)
+                        labelled))))
+
 (defun circuits-free-label (type ordinal taken singles)
   "TYPE with the first number from ORDINAL on that is no label and no single value."
   (loop for k from ordinal
@@ -45,12 +54,28 @@
 
 ;;; Rows without a fault, as most are
 
+(defun $circuits_plain_branches (rows)
+  "The branches of ROWS, or false where something in one of them is to be looked at."
+  (let ((branches (loop for row in (cdr rows)
+                        for number from 1
+                        collect (or (circuits-branch-of-plain-row number row)
+                                    (return-from $circuits_plain_branches nil)))))
+    (cons '(mlist simp) branches)))
+
+(defun circuits-branch-of-plain-row (number row)
+  (multiple-value-bind (label fields)
+      (if (mequalp row) (values (second row) (third row)) (values nil row))
+    (and ($listp fields) (circuits-plain-branch number label (cdr fields)))))
+
 (defun $circuits_plain_branch (row)
-  "The branch of [number, label or false, tail, head, type, value(, state)] of an R, L, C, E or I,
-or false where something in it is to be looked at."
-  (destructuring-bind (number label &optional tail head type (value nil given) (state nil named)
-                       &rest more)
-      (cdr row)
+  "The same of [number, label or false, tail, head, type, value(, state)]."
+  (destructuring-bind (number label &rest fields) (cdr row)
+    (circuits-plain-branch number label fields)))
+
+(defun circuits-plain-branch (number label fields)
+  "The branch of an R, L, C, E or I with FIELDS (tail head type value), a state perhaps behind."
+  (destructuring-bind (&optional tail head type (value nil given) (state nil named) &rest more)
+      fields
     (flet ((node-p (node) (or (integerp node) (circuits-name-p node))))
       (and given (null more) (node-p tail) (node-p head) (not (eq tail head))
            (or (null label) (circuits-name-p label))
@@ -95,6 +120,18 @@ or false where something in it is to be looked at."
                                 (and (circuits-name-p value) (not (eq value '$t))))
                             (not (member (circuits-branch-type branch) '(|$ru| |$ri|))))))
                    (cdr branches))))
+
+;;; Names of all branches
+
+(defun $circuits_branch_labels (branches)
+  (cons '(mlist simp) (mapcar #'circuits-branch-label (cdr branches))))
+
+(defun $circuits_branch_states (branches)
+  "Their states, false where there is none."
+  (cons '(mlist simp) (mapcar #'circuits-branch-state (cdr branches))))
+
+(defun $circuits_names_of_states (branches)
+  (cons '(mlist simp) (remove nil (mapcar #'circuits-branch-state (cdr branches)))))
 
 ;;; Branches by label, names in values
 

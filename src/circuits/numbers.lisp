@@ -5,7 +5,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "circuits/elements"))
+  (core-require "algebra/sign" "circuits/elements"))
 
 (defun $circuits_of_type (branches numbers types)
   "Those of NUMBERS whose branches are of one of TYPES."
@@ -21,14 +21,31 @@
         (remove-if-not (lambda (branch) (member (circuits-branch-type branch) (cdr types)))
                        (cdr branches))))
 
+(defun $circuits_controlled_of (branches)
+  "Those of BRANCHES that others control."
+  ($circuits_of_types branches '((mlist) |$ev| |$g| |$o| |$f| |$h|)))
+
 (defun $circuits_with_open_sign (branches)
-  "Those of BRANCHES that store or resist and have no positive integer as their value."
+  "Those of BRANCHES that store or resist and whose value is no positive integer, and no name that
+is known to be positive."
   (cons '(mlist simp)
         (remove-if-not (lambda (branch)
-                         (let ((value (circuits-branch-value branch)))
-                           (and (member (circuits-branch-type branch) '(|$l| |$c| |$r|))
-                                (not (and (integerp value) (plusp value))))))
+                         (and (member (circuits-branch-type branch) '(|$l| |$c| |$r|))
+                              (not (circuits-plainly-positive-p (circuits-branch-value branch)))))
                        (cdr branches))))
+
+(defun circuits-plainly-positive-p (value)
+  (cond ((integerp value) (plusp value))
+        ((symbolp value) (eq ($algebra_sign value) '$pos))))
+
+(defun $circuits_count (items)
+  "1, 2, .. for the elements of a list."
+  (cons '(mlist simp) (loop for nil in (cdr items) for number from 1 collect number)))
+
+(defun $circuits_laws_in (circuit)
+  "Numbers of the nonlinear resistors."
+  (let ((branches (circuits-circuit-branches circuit)))
+    ($circuits_of_type branches ($circuits_count branches) '((mlist) |$ru| |$ri|))))
 
 (defun circuits-marks (numbers count)
   "A vector of COUNT truths: which places are among NUMBERS."

@@ -8,9 +8,9 @@
 ;;; The middle: the circuit as described, its branches checked; the network, sorted by a tree, with
 ;;; its matrices. A circuit whose network is refused is still checked.
 
-(core-middle "circuit" '("circuit") "circuits/circuit" "circuits_read_circuit" "description")
 (core-middle "open_circuit" '("circuit") "circuits/circuit" "circuits_read_open_circuit"
   "description")
+(core-middle "circuit" '("circuit") "circuits/circuit" "circuits_closed_circuit" "open_circuit")
 (core-middle "network" '("circuit") "circuits/network" "circuits_whole_network" "circuit")
 
 ;;; A potential without branches

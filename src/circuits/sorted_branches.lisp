@@ -5,7 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/sign" "circuits/elements" "circuits/numbers" "circuits/sparse_rows"))
+  (core-require "algebra/sign" "circuits/elements" "circuits/graph" "circuits/numbers"
+                "circuits/sparse_rows"))
 
 (defun circuits-branch-vector (circuit)
   (coerce (cdr (circuits-circuit-branches circuit)) 'simple-vector))
@@ -39,6 +40,32 @@
                             collect (cons (circuits-rank branch (cdr chosen))
                                           (circuits-branch-number branch)))
                       #'circuits-rank-before-p :key #'car))))
+
+;; Circuits in which the graph has nothing to refuse, as most are
+
+(defun $circuits_plainly_lawful (circuit)
+  "Whether CIRCUIT consists of R, L, C and sources, no loop of voltage sources among them and no cut
+of current sources, without transformers and without a chosen tree."
+  (let ((tree (circuits-circuit-chosen_tree circuit)) (branches (circuits-branch-vector circuit)))
+    (and (null (cdr (circuits-circuit-transformers circuit)))
+         (null (cdr (circuits-circuit-windings circuit)))
+         (or (eq tree '$cyclic) (null (cdr tree)))
+         (every (lambda (branch)
+                  (member (circuits-branch-type branch) '(|$r| |$l| |$c| |$e| |$i|)))
+                branches)
+         (circuits-sources-apart-p branches))))
+
+(defun circuits-sources-apart-p (branches)
+  "Whether a tree holds all voltage sources of the vector BRANCHES and no current source."
+  (let* ((count (length branches)) (numbers (loop for number from 1 to count collect number))
+         (voltages (circuits-numbers-of-type branches numbers '(|$e|)))
+         (currents (circuits-numbers-of-type branches numbers '(|$i|)))
+         (others (circuits-numbers-of-type branches numbers '(|$r| |$l| |$c|)))
+         (tree ($circuits_tree (cons '(mlist) (map 'list #'$circuits_ends branches))
+                               (cons '(mlist) (append voltages others currents))))
+         (marks (circuits-marks tree count)))
+    (flet ((in-tree-p (number) (svref marks (1- number))))
+      (and (every #'in-tree-p voltages) (notany #'in-tree-p currents)))))
 
 ;; What is known at once; without MOVING all states are zero
 

@@ -17,6 +17,7 @@
   (columns (make-hash-table :test #'equal)) ; descriptor -> column
   (descriptors (make-array 64 :adjustable t :fill-pointer 0)) ; column -> descriptor
   (law-sources (make-hash-table :test #'eq)) ; label of a resistor -> the source of its affine law
+  (nodes '())          ; those whose potential is unknown
   (unknowns '())       ; columns
   (rows '()))
 
@@ -67,8 +68,9 @@
 (defun circuits-given-current-p (branch) (circuits-type-in-p branch '|$l| '|$i| '|$ru|))
 
 (defun circuits-name-unknowns (tableau)
-  (setf (circuits-tableau-unknowns tableau)
-        (append (loop for node in (circuits-live-nodes tableau)
+  (setf (circuits-tableau-nodes tableau) (circuits-live-nodes tableau)
+        (circuits-tableau-unknowns tableau)
+        (append (loop for node in (circuits-tableau-nodes tableau)
                       collect (circuits-column tableau :potential node))
                 (loop for branch across (circuits-tableau-branches tableau)
                       unless (circuits-given-current-p branch)
@@ -81,17 +83,13 @@
 ;;; Nodes. Each part that branches and windings join has a node of zero potential.
 
 (defun circuits-joined-pairs (tableau)
-  (let ((circuit (circuits-tableau-circuit tableau)))
-    (append (map 'list #'$circuits_ends (circuits-tableau-branches tableau))
-            (loop for transformer in (cdr (circuits-circuit-transformers circuit))
-                  collect (circuits-transformer-pair transformer)
-                  collect (circuits-transformer-driven transformer)))))
+  ($circuits_all_ends (cons '(mlist) (coerce (circuits-tableau-branches tableau) 'list))
+                      (circuits-circuit-transformers (circuits-tableau-circuit tableau))))
 
 (defun circuits-parts-of-nodes (tableau)
   "Lists of nodes, that of zero potential first."
   (let ((datum (circuits-circuit-datum (circuits-tableau-circuit tableau))))
-    (loop for (nil . nodes) in (cdr ($circuits_pieces
-                                     (cons '(mlist simp) (circuits-joined-pairs tableau))))
+    (loop for (nil . nodes) in (cdr ($circuits_pieces (circuits-joined-pairs tableau)))
           collect (if (member datum nodes) (cons datum (remove datum nodes)) nodes))))
 
 (defun circuits-live-nodes (tableau)
@@ -116,7 +114,7 @@
 ;;; Kirchhoff's law of currents
 
 (defun circuits-node-sums (tableau)
-  (let ((sums (make-hash-table :test #'equal)) (nodes (circuits-live-nodes tableau)))
+  (let ((sums (make-hash-table :test #'equal)) (nodes (circuits-tableau-nodes tableau)))
     (dolist (node nodes) (setf (gethash node sums) (circuits-new-row)))
     (flet ((flow (pair column x)
              (loop for node in (cdr pair)

@@ -26,11 +26,16 @@
 (defun circuits-value-of-row (hearing row)
   (let ((sum 0))
     (maphash (lambda (column x)
-               (incf sum (forms-fixed-times
-                          (forms-fixed-value (circuits-outside x) (circuits-hearing-point hearing))
-                          (circuits-value-of-column hearing column))))
+               (let ((value (circuits-value-of-column hearing column)))
+                 (incf sum (if (integerp x)
+                               (* x value)
+                               (forms-fixed-times (circuits-value-of-coefficient hearing x)
+                                                  value)))))
              row)
     sum))
+
+(defun circuits-value-of-coefficient (hearing x)
+  (forms-fixed-value (circuits-outside x) (circuits-hearing-point hearing)))
 
 (defun circuits-value-of-column (hearing column)
   (let* ((values (circuits-hearing-values hearing)) (solution (circuits-hearing-solution hearing))

@@ -48,15 +48,20 @@ compiled progv.)"
 
 ;;; Options
 
+(defun core-other-value-p (name default)
+  "Whether the variable NAME has another value than DEFAULT. (Most have the very same.)"
+  (and (boundp name)
+       (not (eq (symbol-value name) default))
+       (not (equal (symbol-value name) default))))
+
 (defun core-default-options ()
   "Two lists: option variables that differ from Maxima's defaults, and the defaults; and those whose
 default is to print a line."
   (let ((names (mapcar #'car *core-lisp-options*)) (defaults (mapcar #'cdr *core-lisp-options*))
         (kept (append *core-kept-variables* (cdr $infolists))))
     (maphash (lambda (name default)
-               (when (and (char= (char (string name) 0) #\$) (boundp name)
-                          (not (eq (symbol-value name) default))
-                          (not (equal (symbol-value name) default))
+               (when (and (core-other-value-p name default)
+                          (char= (char (string name) 0) #\$)
                           (not (constantp name))
                           (not (member name kept)))
                  (push name names)

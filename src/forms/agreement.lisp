@@ -9,9 +9,11 @@
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "forms/fixed" "forms/value"))
 
+(defvar *forms-share-of-rounding* (forms-fixed (expt 10 -30)))
+
 (defun forms-differ-p (x y)
   (> (abs (- x y))
-     (forms-fixed-times (forms-fixed (expt 10 -30)) (+ (ash 1 forms-digits) (abs x) (abs y)))))
+     (forms-fixed-times *forms-share-of-rounding* (+ (ash 1 forms-digits) (abs x) (abs y)))))
 
 (defconstant forms-most-digits-in-sums 200
   "Binary digits before the point: of two larger values of functions, as exp(1000) - exp(999), the

@@ -11,7 +11,7 @@
 (defconstant forms-doublings 20)
 
 (defun forms-fixed (rational)
-  (round (* rational (ash 1 forms-digits))))
+  (values (round (ash (numerator rational) forms-digits) (denominator rational))))
 
 (defconstant forms-most-digits 40000
   "Binary digits that a value may have: exp(10^7) has none that is of use.")
@@ -120,7 +120,9 @@ no entry is larger than LEAST; and the sign of the order in which the rows were 
                     (t (return-from forms-in-echelon-p nil)))))
   (every #'forms-negligible-p row))
 
-(defun forms-negligible-p (x) (< (abs x) (forms-fixed (expt 10 -40))))
+(defvar *forms-negligible* (forms-fixed (expt 10 -40)))
+
+(defun forms-negligible-p (x) (< (abs x) *forms-negligible*))
 
 (defun forms-fixed-determinant (rows)
   (multiple-value-bind (echelon sign) (forms-echelon rows (length rows) 0)
