@@ -12,7 +12,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/common_roots" "algebra/general_form" "algebra/groebner"
-                "algebra/kernels" "core/watch"))
+                "algebra/kernels" "algebra/size" "core/watch"))
 
 (defparameter *algebra-most-components* 400 "how many branches are looked at")
 (defparameter *algebra-most-factored* 60 "terms of an element up to which it is factored")
