@@ -28,7 +28,7 @@ polynomial_integrals 60 5|src/algebra/invariants.lisp|degree from most downto le
 polynomial_integrals 60 5|src/algebra/invariants.lisp|(>= k count)|(> k count)
 ideals 32 3|src/algebra/components.lisp|loop for factor in factors$|loop for factor in (butlast factors)
 ideals 32 3|src/algebra/components.lisp|(algebra-divided-rest p (first a))|(algebra-divided-rest p (first b))
-ideals 32 3|src/algebra/components.lisp|(last terms of-apart)|nil
+ideals 32 3|src/algebra/components.lisp|(last ordered of-apart)|nil
 ideals 32 3|src/algebra/components.lisp|maximize (logcount unknowns)|maximize (1+ (logcount unknowns))
 END
 }

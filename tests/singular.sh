@@ -37,7 +37,7 @@ said() { # LINES..: the same where a program of that name says so
     printf '#!/bin/sh\ncat >/dev/null\ncat %s\n' "$PWD/bin/lines" >bin/Singular && chmod +x bin/Singular && merged "$PWD/bin:"
 }
 as_it_is='[[[[x*z-y^2=0,x^3-y*z=0],1]]]'
-in_two='[[[[x=0,y=0],1],[[x*z-y^2=0,x^2*y-z^2=0,x^3-y*z=0],1]]]'
+in_two='[[[[y=0,x=0],1],[[x*z-y^2=0,x^2*y-z^2=0,x^3-y*z=0],1]]]'
 curve='x2^5-x3^4 -x2^2+x1*x3 x1*x2^3-x3^3 x1^2*x2-x3^2 x1^3-x2*x3'
 
 # shellcheck disable=SC2086

@@ -28,7 +28,7 @@ not there or does not say."
            (loop for (nil . text) in names when (char= (char text 0) letter) collect text)))
     (format nil "LIB \"primdec.lib\"; ring r = (0~{, ~a~}), (~{~a~^, ~}), dp; short = 0;~%~
                  ideal all = 1;~%~{all = intersect(all, ideal(~a));~%~}~
-                 list found = minAssGTZ(all); int k; int j;~%~
+                 list found = minAssGTZ (all); int k; int j;~%~
                  for (k = 1; k <= size(found); k++) { print(\"prime\");~%~
                  for (j = 1; j <= size(found[k]); j++) { print(string(found[k][j])); } }~%~
                  print(\"end\"); quit;~%"
