@@ -12,14 +12,16 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/common_roots" "algebra/general_form" "algebra/groebner"
-                "algebra/kernels" "core/watch"))
+                "algebra/kernels" "algebra/size" "core/watch"))
 
 (defparameter *algebra-most-components* 400 "how many branches are looked at")
 (defparameter *algebra-most-factored* 60 "terms of an element up to which it is factored")
 
 (defvar *algebra-whole-work* 0 "how many coefficients may be formed in all")
-(defvar *algebra-basis-shares* '(1) "of that: what one basis may take, at first and at last")
+(defvar *algebra-splits-p* nil "whether sets without a basis are split at what was found of it")
+(defvar *algebra-basis-shares* '(1) "of the work: what one basis may take, at first and at last")
 (defparameter *algebra-basis-time* 1/12 "of the time left, for one basis, 15 s at most")
+(defparameter *algebra-components-time* 1/2 "of the time left, for all components")
 
 (defvar *algebra-factors-found* nil "the factors of elements that were met, by their terms")
 
@@ -36,17 +38,21 @@ within the WORK, a count of coefficients; with SPLIT such sets are split at what
 false where there are roots or functions of NAMES, a
 sentence where there is too much."
   (algebra-with-polynomials `((mlist) ,@(cdr polynomials) ,@(cdr apart)) names
-    (lambda (terms numbers kernels)
+    (lambda (terms numbers given-kernels)
       (declare (ignore numbers))
-      (let* ((*algebra-taken* nil)
+      (let* ((order (algebra-order-by-degrees terms (length given-kernels)))
+             (kernels (algebra-in-order given-kernels order))
+             (*algebra-taken* nil)
              (*algebra-degree-order* 'first)
              (*algebra-work-left* (core-sized work))
              (*algebra-whole-work* *algebra-work-left*)
-             (*algebra-basis-shares* (if split '(1/25 1/4) '(1)))
+             (*algebra-splits-p* split)
+             (*algebra-basis-shares* (if split '(1/4) '(1)))
              (*algebra-factors-found* (make-hash-table :test #'equal))
              (of-apart (length (cdr apart)))
-             (components (algebra-components-of (butlast terms of-apart) (last terms of-apart)
-                                                kernels)))
+             (ordered (algebra-terms-in-order terms order))
+             (components (algebra-components-of (butlast ordered of-apart)
+                                                (last ordered of-apart) kernels)))
         (flet ((expressions (basis)
                  (cons '(mlist simp)
                        (loop for p in basis collect (algebra-expression-of p kernels)))))
@@ -57,12 +63,28 @@ sentence where there is too much."
                                           dimension)))
                 (cons '(mlist simp) (mapcar #'algebra-general *algebra-taken*))))))))
 
+(defun algebra-order-by-degrees (polynomials n)
+  "The places of N unknowns, low degrees first: the smallest, multipliers of squares among them."
+  (flet ((degree (k)
+           (reduce #'max (loop for p in polynomials
+                               append (loop for (exponents . nil) in p collect (nth k exponents)))
+                   :initial-value 0)))
+    (stable-sort (loop for k below n collect k) #'< :key #'degree)))
+
+(defun algebra-in-order (items places) (loop for k in places collect (nth k items)))
+
+(defun algebra-terms-in-order (polynomials places)
+  (loop for p in polynomials
+        collect (loop for (exponents . a) in p
+                      collect (cons (algebra-in-order exponents places) a))))
+
 (defun algebra-components-of (polynomials apart kernels)
   "A list of (basis . dimension)."
   (let ((waiting (list (algebra-first-branch polynomials apart (length kernels))))
         (count 0)
-        (components '()))
-    (loop while waiting
+        (components '())
+        (seconds-kept (algebra-seconds-kept)))
+    (loop while (and waiting (algebra-time-left-p seconds-kept))
           do (when (> (incf count) (core-sized *algebra-most-components*))
                (throw 'algebra-too-large 'too-large))
              (let ((branch (pop waiting)))
@@ -76,18 +98,36 @@ sentence where there is too much."
                    (cond (parts (setq waiting (append parts waiting)))
                          (component (push component components))
                          ((or factors (null grown))
-                          (push (list nil (algebra-given-equations branch)) components)))))))
-    (mapcar #'cdr (algebra-not-contained (nreverse components)))))
+                          (push (algebra-without-dimension branch) components)))))))
+    (mapcar #'cdr (algebra-not-contained
+                   (append (reverse components) (mapcar #'algebra-without-dimension waiting))))))
+
+(defun algebra-seconds-kept ()
+  "Of the time left what is not for components; nil where there is no limit."
+  (let ((left (core-seconds-left)))
+    (and left (* left (- 1 *algebra-components-time*)))))
+
+(defun algebra-time-left-p (seconds-kept)
+  (or (null seconds-kept) (> (core-seconds-left) seconds-kept)))
+
+(defun algebra-without-dimension (branch)
+  "(basis generators . dimension) of a BRANCH of which no basis is known."
+  (list nil (algebra-given-equations branch)))
 
 (defun algebra-grown-or-factors (branch kernels)
   "The BRANCH with its basis, and factors in it.  Where that is too much: nil, and factors of what
-was found of a basis, after little work and, where there were none, after more."
+was found of a basis."
   (loop for (share . more) on *algebra-basis-shares*
         for grown = (algebra-within-bounds share (lambda () (algebra-basis-of-branch branch)))
         for factors = (cond (grown (algebra-factors-in (algebra-branch-elements grown) kernels))
-                            ((cdr *algebra-basis-shares*)
-                             (algebra-factors-so-far branch kernels)))
+                            (*algebra-splits-p* (algebra-factors-so-far branch kernels)))
+        unless grown do (algebra-expect-too-much)
         when (or grown factors (null more)) return (values grown factors)))
+
+(defun algebra-expect-too-much ()
+  "Where one basis was too much others will be: they get little work, and more where what was found
+shows no factors."
+  (when *algebra-splits-p* (setq *algebra-basis-shares* '(1/25 1/4))))
 
 (defun algebra-within-bounds (share function)
   "What FUNCTION returns; nil where it needs more than this SHARE of the work, or of the time."
@@ -140,7 +180,8 @@ was not split at it; it is noted."
   (let ((one (list (cons (make-list (1+ count) :initial-element 0) 1))))
     (algebra-with-product (make-algebra-branch
                            :new (algebra-sorted-polynomials (mapcar #'algebra-with-z polynomials)))
-                          (reduce #'algebra-terms-product (mapcar #'algebra-with-z apart)
+                          (reduce #'algebra-terms-product
+                                  (algebra-sorted-polynomials (mapcar #'algebra-with-z apart))
                                   :initial-value one))))
 
 (defun algebra-with-z (terms)
@@ -220,14 +261,25 @@ was not split at it; it is noted."
                    (algebra-new-element-factors p kernels))))))
 
 (defun algebra-new-element-factors (p kernels)
-  (let ((factors (loop for (factor nil) on (pfactor (algebra-polynomial-of-terms p kernels))
-                       by #'cddr
+  (let ((factors (loop for factor in (algebra-polynomial-factors
+                                      (algebra-polynomial-of-terms p kernels))
                        for terms = (algebra-factor-terms factor kernels)
                        unless (algebra-everywhere-nonzero-p (list terms)) collect terms)))
-    (if (and (null (cdr factors))
-             (equal (algebra-lead (car factors)) (algebra-lead p)))
+    (if (or (null factors)
+            (and (null (cdr factors))
+                 (equal (algebra-lead (car factors)) (algebra-lead p))))
         nil
         (algebra-sorted-polynomials (reverse factors)))))
+
+(defun algebra-polynomial-factors (p)
+  "Those of Maxima's pfactor, which ends in errors (5.46) for some P with parameters; nil there, and
+unless they make P."
+  (let* ((found (algebra-quietly (lambda () (pfactor p))))
+         (product 1))
+    (loop for (factor power) on found by #'cddr
+          do (setq product (ptimes product (pexpt factor power))))
+    (and (equal product p)
+         (loop for (factor nil) on found by #'cddr collect factor))))
 
 (defun algebra-polynomial-of-terms (p kernels)
   "P, free of z, as a polynomial of Maxima."

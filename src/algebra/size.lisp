@@ -39,10 +39,11 @@
         (when (< size smallest) (setq least item smallest size))))))
 
 (defun algebra-quietly (function)
-  "The value of FUNCTION, nil if Maxima signals an error; questions are errors, too."
+  "The value of FUNCTION, nil if Maxima signals an error, or throws one as its polynomials do;
+questions are errors, too."
   (let ((errcatch t) ($errormsg nil) (*mdebug* nil))
     (declare (special errcatch $errormsg *mdebug*))
-    (car (errset (funcall function)))))
+    (car (errset (rat-error-to-merror (funcall function))))))
 
 (defun algebra-outside (e)
   (core-error "a formula was expected, found ~A" (algebra-short-text e)))

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/normal"))
+  (core-require "analysis/programs_asked"))
 
 (defparameter *analysis-qepcad-seconds* 20 "What the program may take, its own clock.")
 
@@ -16,16 +16,17 @@
   "[and, or of conditions on the names FREE that say that there are BOUND for which one of the CASES
 holds where the FACTS do]; false where the program is not there or does not say. All are lists of
 conditions e > 0, .. with polynomials e."
-  (let ((answer (analysis-qepcad-answer
-                 (analysis-qepcad-input (cdr cases) (cdr facts) (cdr free) (cdr bound)))))
+  (let ((answer (analysis-program-answer
+                 "qepcad" (list "+N8000000" "-noecho" "-t"
+                                (princ-to-string *analysis-qepcad-seconds*))
+                 (analysis-qepcad-input (cdr cases) (cdr facts) (cdr free) (cdr bound))
+                 (* 2 *analysis-qepcad-seconds*))))
     (and answer (analysis-qepcad-read answer (cdr free)))))
 
 ;;; What it is told
 
 (defun analysis-qepcad-input (cases facts free bound)
-  (let ((names (append (loop for name in free for k from 1 collect (cons name (format nil "p~d" k)))
-                       (loop for name in bound for k from 1
-                             collect (cons name (format nil "m~d" k))))))
+  (let ((names (append (analysis-numbered-names free "p") (analysis-numbered-names bound "m"))))
     (flet ((all (conditions)
              (format nil "[~{~a~^ /\\ ~}]"
                      (loop for c in conditions collect (analysis-qepcad-condition c names)))))
@@ -37,35 +38,9 @@ conditions e > 0, .. with polynomials e."
 
 (defun analysis-qepcad-condition (c names)
   (format nil "~a ~a 0"
-          (substitute #\Space #\*
-                      (analysis-plain-text
-                       (sublis (loop for (name . text) in names
-                                     collect (cons name (make-symbol
-                                                         (format nil "$~:@(~a~)" text))))
-                               ($expand (second c)))))
+          (substitute #\Space #\* (analysis-plain-text (second c) names))
           (ecase (caar c)
             (mgreaterp ">") (mgeqp ">=") (mequal "=") ($notequal "/="))))
-
-(defun analysis-plain-text (polynomial)
-  (coerce (mstring (resimplify polynomial)) 'string))
-
-;;; The program
-
-(defun analysis-qepcad-answer (input)
-  "What the program prints, or nil."
-  #+sbcl
-  (let ((process nil))
-    (unwind-protect
-         (ignore-errors
-          (with-output-to-string (out)
-            (with-input-from-string (in input)
-              (setq process (sb-ext:run-program
-                             "qepcad" (list "+N8000000" "-noecho" "-t"
-                                            (princ-to-string *analysis-qepcad-seconds*))
-                             :search t :input in :output out :error nil)))))
-      (when (and process (sb-ext:process-alive-p process))
-        (sb-ext:process-kill process 15))))
-  #-sbcl (progn input nil))
 
 ;;; What it says: conditions joined by /\ and \/, in brackets
 
@@ -75,34 +50,14 @@ conditions e > 0, .. with polynomials e."
   (let* ((start (search *analysis-qepcad-heading* answer))
          (end (and start (search "=====" answer :start2 start))))
     (when (and end (not (search "WARNING" answer)))
-      (let ((names (loop for name in free for k from 1 collect (cons (format nil "p~d" k) name))))
+      (let ((names (loop for (name . text) in (analysis-numbered-names free "p")
+                         collect (cons text name))))
         (catch 'analysis-unreadable
           (list '(mlist simp)
                 (analysis-qepcad-formula
-                 (analysis-qepcad-tokens
+                 (analysis-tokens-of
                   (subseq answer (+ start (length *analysis-qepcad-heading*)) end))
                  names)))))))
-
-(defun analysis-qepcad-tokens (text)
-  (let ((tokens '()) (k 0))
-    (flet ((run (test)
-             (let ((end (or (position-if-not test text :start k) (length text))))
-               (push (subseq text k end) tokens)
-               (setq k end))))
-      (loop while (< k (length text))
-            do (let ((letter (char text k)))
-                 (cond ((member letter '(#\Space #\Newline #\Return #\Tab)) (incf k))
-                       ((alphanumericp letter) (run #'alphanumericp))
-                       ((find letter "/\\<>=") (run (lambda (c) (find c "/\\<>="))))
-                       (t (push (string letter) tokens) (incf k)))))
-      (nreverse tokens))))
-
-(defvar *analysis-tokens* '() "What is left to be read.")
-
-(defun analysis-token (&rest expected)
-  "The next token where it is one of those EXPECTED, which is taken."
-  (and (member (car *analysis-tokens*) expected :test #'equal)
-       (pop *analysis-tokens*)))
 
 (defun analysis-qepcad-formula (tokens names)
   (let* ((*analysis-tokens* tokens) (formula (analysis-qepcad-any names)))
@@ -127,7 +82,7 @@ conditions e > 0, .. with polynomials e."
         ((analysis-token "[")
          (prog1 (analysis-qepcad-any names)
            (unless (analysis-token "]") (throw 'analysis-unreadable nil))))
-        (t (let ((e (analysis-qepcad-sum names))
+        (t (let ((e (analysis-read-sum names))
                  (relation (analysis-token ">" "<" ">=" "<=" "=" "/=")))
              (unless (and relation (analysis-token "0")) (throw 'analysis-unreadable nil))
              (analysis-qepcad-comparison relation e)))))
@@ -140,39 +95,6 @@ conditions e > 0, .. with polynomials e."
           ((equal relation "<=") (compared 'mgeqp (mul -1 e)))
           ((equal relation "=") (compared 'mequal e))
           (t (compared '$notequal e)))))
-
-(defun analysis-qepcad-sum (names)
-  (let ((value (if (analysis-token "-")
-                   (mul -1 (analysis-qepcad-product names))
-                   (analysis-qepcad-product names))))
-    (loop for sign = (analysis-token "+" "-")
-          while sign
-          do (let ((term (analysis-qepcad-product names)))
-               (setq value (add value (if (equal sign "-") (mul -1 term) term)))))
-    ($expand value)))
-
-(defun analysis-qepcad-product (names)
-  (let ((value (analysis-qepcad-power names)))
-    (loop while (and *analysis-tokens*
-                     (or (alphanumericp (char (car *analysis-tokens*) 0))
-                         (equal (car *analysis-tokens*) "(")))
-          do (setq value (mul value (analysis-qepcad-power names))))
-    value))
-
-(defun analysis-qepcad-power (names)
-  (let ((base (analysis-qepcad-item names)))
-    (if (analysis-token "^")
-        (power base (parse-integer (pop *analysis-tokens*)))
-        base)))
-
-(defun analysis-qepcad-item (names)
-  (let* ((token (pop *analysis-tokens*)) (entry (assoc token names :test #'equal)))
-    (cond (entry (cdr entry))
-          ((equal token "(")
-           (prog1 (analysis-qepcad-sum names)
-             (unless (analysis-token ")") (throw 'analysis-unreadable nil))))
-          ((and token (every #'digit-char-p token)) (parse-integer token))
-          (t (throw 'analysis-unreadable nil)))))
 
 (defun $analysis_facts ()
   "The relations that hold here."

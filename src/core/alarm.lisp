@@ -50,10 +50,24 @@ opened would stay so.")
       (core-cleanup-frame-p name)
       (core-lisp-name-p name *core-undivided-lisp*)))
 
+(defparameter *core-binding* '(mlambda mprog mdo mdoin mbind $ev)
+  "Functions that bind Maxima's variables and note it in the step after: not to be stopped by
+themselves, but in what they call.")
+
+(defun core-interrupted-name (names)
+  "The innermost function of Maxima's of NAMES that is not the clock's."
+  (loop for name in names
+        for own = (if (consp name) (second (member :in name)) name)
+        when (and own (symbolp own) (eq (symbol-package own) (find-package :maxima))
+                  (not (eql 0 (search "CORE-" (symbol-name own)))))
+          return own))
+
 (defun core-may-stop-p (seconds-late)
   "Whether nothing that runs has to be ended first."
   (or (> seconds-late *core-patience*)
-      (notany #'core-undivided-frame-p (core-frame-names))))
+      (let ((names (core-frame-names)))
+        (and (notany #'core-undivided-frame-p names)
+             (not (member (core-interrupted-name names) *core-binding*))))))
 
 (defun core-may-write-p ()
   "Whether nothing that runs writes to a stream."
