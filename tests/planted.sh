@@ -23,7 +23,7 @@ places 200 3|src/analysis/vanishing_in_places.mac|then is(algebra_zerop(e) # fal
 places 600 3|src/analysis/vanishing_in_places.mac|'abs then \[first(parts), -first(parts)\]|'abs then [-first(parts)]
 impulses 100 7|src/numerics/run_course.lisp|(share (\* 10 |(share (* 1d12 
 impulses 100 7|src/algebra/program_nodes.lisp|(algebra-slope (algebra-twice-impulse x))|(algebra-slope 0)
-leaves 40 41|src/analysis/variation.mac|N\[k, i\]\*HN|N[k, j]*HN
+leaves 40 41|src/algebra/matrices.lisp|($algebra_dot column image)|($algebra_dot image image)
 leaves 40 41|src/analysis/variation.mac|integrals # \[\] then$|false then
 polynomial_integrals 60 5|src/algebra/invariants.lisp|degree from most downto least|degree from most above least
 polynomial_integrals 60 5|src/algebra/invariants.lisp|(>= k count)|(> k count)

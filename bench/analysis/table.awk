@@ -29,6 +29,7 @@ END {
   table("charpoly", "det(M x^2 + S x + W), M symmetric, S and W general", "dynarch flint sympy")
   table("roots", "where the roots lie, products of n/2 rational quadratics", "dynarch flint")
   table("chain", "verdict on a hanging planar chain of n links, from the description", "dynarch")
+  table("first", "first call in a session, RouthLyapunov of an archive, verdicts included", "dynarch")
   printf "\n%d results compared with ours, %d different.\n\n", compared, different + 0
   if (seconds["flint", "minors", 13] > 0) {
     target("minors of degree 13 as polynomials, over flint", sprintf("%.1f", seconds["polynomials", "minors", 13]/seconds["flint", "minors", 13]), 3)
@@ -40,5 +41,8 @@ END {
   target("roots of degree 100, seconds", seconds["dynarch", "roots", 100], 0.2)
   target("chain of 8 links, seconds", seconds["dynarch", "chain", 8], 1)
   target("chain of 20 links, seconds", seconds["dynarch", "chain", 20], 5)
+  target("first call, kirchhoff_clebsch, seconds", seconds["dynarch", "first", "kirchhoff_clebsch"], 2)
+  target("first call, clebsch_tisserand_brun, seconds", seconds["dynarch", "first", "clebsch_tisserand_brun"], 2)
+  target("first call, 24 rests of a satellite, seconds", seconds["dynarch", "first", "satellite"], 2)
   exit different > 0
 }

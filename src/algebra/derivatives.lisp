@@ -7,8 +7,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/branch_slopes" "algebra/size" "algebra/kernels" "algebra/normal"
-                "algebra/evaluate" "algebra/quotient" "algebra/scan"))
+  (core-require "algebra/branch_slopes" "algebra/memory" "algebra/size" "algebra/kernels"
+                "algebra/normal" "algebra/evaluate" "algebra/quotient" "algebra/scan"))
 
 (defun $algebra_jacobian (es xs)
   "The matrix of de_i/dx_j, normal."
@@ -38,8 +38,7 @@
 
 (defun $algebra_slope (e x)
   "de/dX, normal, where E is linear in X and not free of it; else false."
-  (algebra-remembered *algebra-slopes* (list* x (algebra-size e) e)
-                      (lambda () (algebra-new-slope e x))))
+  (algebra-remembered *algebra-slopes* (cons x e) (lambda () (algebra-new-slope e x))))
 
 (defun algebra-new-slope (e x)
   (let ((slope ($algebra_normal ($diff e x))))

@@ -8,7 +8,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "core/watch"))
+  (core-require "algebra/memory" "algebra/size" "core/watch"))
 
 (defparameter *algebra-factored-degree* 300 "The degree up to which a sum is factored.")
 
@@ -37,6 +37,11 @@
 
 (defun $algebra_factor (e)
   "Maxima's factor, to which roots of large numbers are names."
+  (cond ((symbolp e) e)
+        ((algebra-plain-p e) (algebra-kept 'factor e (lambda () ($factor e))))
+        (t (algebra-factor-without-roots e))))
+
+(defun algebra-factor-without-roots (e)
   (let ((roots '()))
     (labels ((named (e)
                (cond ((atom e) e)

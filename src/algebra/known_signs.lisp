@@ -8,25 +8,35 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/normal" "algebra/points_of_facts" "algebra/sign_by_parts"
-                "algebra/sign_by_proof"
+                "algebra/sign_by_proof" "algebra/memory"
                 "algebra/factoring" "algebra/evaluate" "algebra/noun_values" "algebra/root_kernels"
                 "algebra/scan"))
 
 (defparameter *algebra-kept-knowledge* 1500 "For how many lists of facts knowledge is kept.")
 (defvar *algebra-knowledges* (make-hash-table :test 'equal) "Knowledge by lists of facts.")
 
+(defvar *algebra-last-knowledge* '(nil . nil)
+  "The table in which knowledge was found last, and that knowledge.")
+
 (defun algebra-what-is-known ()
-  "What is known here; kept for the next question under the same facts."
-  (let* ((facts (core-facts)) (known (gethash facts *algebra-knowledges*)))
-    (cond ((null known)
-           (when (>= (hash-table-count *algebra-knowledges*) *algebra-kept-knowledge*)
-             (clrhash *algebra-knowledges*))
-           (setf (gethash facts *algebra-knowledges*) (algebra-learned facts)))
-          ((eq facts (knowledge-facts known)) known)
-          (t ; thousands of facts are compared once: the next question finds this very list
-           (remhash facts *algebra-knowledges*)
-           (setf (knowledge-facts known) facts
-                 (gethash facts *algebra-knowledges*) known)))))
+  "What is known here; kept for the next question under the same facts. Most are asked under the
+very list of facts of the last one, which may be thousands."
+  (let ((facts (core-facts)) (last (cdr *algebra-last-knowledge*)))
+    (if (and last
+             (eq (car *algebra-last-knowledge*) *algebra-knowledges*)
+             (eq facts (knowledge-facts last)))
+        last
+        (let ((known (algebra-knowledge-of facts)))
+          (setf (knowledge-facts known) facts
+                *algebra-last-knowledge* (cons *algebra-knowledges* known))
+          known))))
+
+(defun algebra-knowledge-of (facts)
+  (let ((key (algebra-key facts)))
+    (when (>= (hash-table-count *algebra-knowledges*) *algebra-kept-knowledge*)
+      (clrhash *algebra-knowledges*))
+    (or (gethash key *algebra-knowledges*)
+        (setf (gethash key *algebra-knowledges*) (algebra-learned facts)))))
 
 (defun algebra-name-signs (facts)
   "((name . sign) ..) that follow from FACTS, or :contradiction."
@@ -127,10 +137,12 @@ a fact of one name alone says is then known; the others are given back, to be lo
 
 (defun algebra-ratio-factors (e)
   "((factor . power) ..) of E = numerator/denominator; powers below the line are negative."
-  (destructuring-bind (n d) (cdr ($algebra_ratio e))
-    (append (algebra-factor-powers n)
-            (loop for (factor . power) in (algebra-factor-powers d)
-                  collect (cons factor (- power))))))
+  (flet ((factors ()
+           (destructuring-bind (n d) (cdr ($algebra_ratio e))
+             (append (algebra-factor-powers n)
+                     (loop for (factor . power) in (algebra-factor-powers d)
+                           collect (cons factor (- power)))))))
+    (if (algebra-plain-p e) (algebra-kept 'factors e #'factors) (factors))))
 
 (defun algebra-factor-powers (e)
   "((factor . power) ..) of E; what is too long to be factored in seconds is one factor."
@@ -170,7 +182,7 @@ a fact of one name alone says is then known; the others are given back, to be lo
 (defun algebra-open-product (factors)
   "The expanded product of FACTORS, or nil, nothing to learn, where it would be long."
   (when (< (reduce #'* factors :key #'algebra-size) 2000)
-    ($expand (muln factors nil))))
+    (algebra-kept 'product factors (lambda () ($expand (muln factors nil))))))
 
 (defun algebra-learn (e sign)
   "E, a name, a kernel or a sum, has SIGN."
@@ -199,17 +211,18 @@ a fact of one name alone says is then known; the others are given back, to be lo
             (setf (gethash item (knowledge-names *algebra-knowledge*)) learned))))))
 
 (defun algebra-learn-sum (sum sign)
-  (let* ((plain ($expand sum))
-         (turned (mul -1 plain))
-         (entry (or (assoc plain (knowledge-sums *algebra-knowledge*) :test #'alike1)
-                    (assoc ($expand turned) (knowledge-sums *algebra-knowledge*)
-                           :test #'alike1))))
-    (cond ((null entry)
-           (push (cons plain (algebra-agree (algebra-simple-sign plain) sign))
-                 (knowledge-sums *algebra-knowledge*)))
-          ((alike1 (car entry) plain) (setf (cdr entry) (algebra-agree (cdr entry) sign)))
-          (t (setf (cdr entry)
-                   (algebra-agree (cdr entry) (algebra-opposite-sign sign)))))))
+  (destructuring-bind (plain . turned) (algebra-kept 'sides sum (lambda () (algebra-sides sum)))
+    (let ((entry (algebra-entry-of-sum plain)))
+      (cond (entry (setf (cdr entry) (algebra-agree (cdr entry) sign)))
+            ((setq entry (algebra-entry-of-sum turned))
+             (setf (cdr entry) (algebra-agree (cdr entry) (algebra-opposite-sign sign))))
+            (t (algebra-note-sum plain turned
+                                 (algebra-agree (algebra-simple-sign plain) sign)))))))
+
+(defun algebra-sides (sum)
+  "(SUM . -SUM), expanded."
+  (let ((plain ($expand sum)))
+    (cons plain ($expand (mul -1 plain)))))
 
 (defun algebra-learn-terms (sum sign)
   "In a SUM of known sign a term that all the others work against."

@@ -107,6 +107,23 @@
   (unless (and ($matrixp m) (cdr m) (cdadr m))
     (core-error "~A must be a matrix, found ~A" what (algebra-short-text m))))
 
+(defun $algebra_from_rows (rows)
+  "The matrix of a list of ROWS. (A call of matrix has at most 64 of them on GCL.)"
+  (cons '($matrix simp) (cdr rows)))
+
+(defun $algebra_congruent (h n)
+  "The normal entries of transpose(N).H.N."
+  (let* ((columns (cdr ($transpose n)))
+         (images (loop for column in columns
+                       collect (cons '(mlist simp)
+                                     (loop for row in (cdr h) collect ($algebra_dot row column))))))
+    (cons '($matrix simp)
+          (loop for column in columns
+                collect (cons '(mlist simp)
+                              (loop for image in images
+                                    collect (algebra-normal-form
+                                             ($algebra_dot column image))))))))
+
 (defun $algebra_dot (list-1 list-2)
   "The scalar product of two lists, 0 for empty ones."
   (addn (mapcar #'mul (cdr list-1) (cdr list-2)) nil))

@@ -9,13 +9,18 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/kernels" "algebra/scan" "algebra/evaluate"
-                "algebra/readable" "algebra/general_form" "algebra/nouns" "algebra/zero"
-                "algebra/quotient" "algebra/relations"))
+                "algebra/readable" "algebra/general_form" "algebra/memory" "algebra/nouns"
+                "algebra/zero" "algebra/quotient" "algebra/relations"))
 
 (defun $algebra_normal (e)
   (algebra-map-bags #'algebra-normal-form e))
 
 (defun $algebra_ratio (e)
+  (if (algebra-plain-p e)
+      (algebra-kept 'ratio e (lambda () (algebra-new-ratio e)))
+      (algebra-new-ratio e)))
+
+(defun algebra-new-ratio (e)
   (with-algebra-ring
     (let ((quotient (algebra-normal-quotient e)))
       (list '(mlist simp)

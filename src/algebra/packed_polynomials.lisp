@@ -21,6 +21,15 @@ coefficients."
           (let ((base (algebra-base-of factor)))
             (unless (algebra-rational-number base) (pushnew base kernels :test #'alike1))))))))
 
+(defun $algebra_made_as_polynomial (e names)
+  "Whether E is a polynomial in NAMES as it stands, not written out, all else being coefficients."
+  (labels ((made-p (e)
+             (cond ((or (atom e) (member e (cdr names) :test #'alike1)) t)
+                   ((or (mplusp e) (mtimesp e)) (every #'made-p (cdr e)))
+                   (t (or ($lfreeof names e)
+                          (and (mexptp e) (typep (caddr e) '(integer 0)) (made-p (cadr e))))))))
+    (made-p e)))
+
 (defun algebra-summands (e) (if (mplusp e) (cdr e) (list e)))
 (defun algebra-factors-of (e) (if (mtimesp e) (cdr e) (list e)))
 

@@ -10,20 +10,26 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/random_numbers" "algebra/sign_by_parts"))
+  (core-require "algebra/memory" "algebra/random_numbers" "algebra/sign_by_parts" "algebra/size"))
 
 (defstruct (algebra-search (:conc-name search-) (:predicate nil) (:copier nil))
   (names '())       ; in the order of the coordinates
   (conditions '())  ; ((form sign ..) ..), the signs that are allowed: 1, 0, -1
   (points '())      ; vectors of rational numbers at which all conditions hold
+  (seen (make-hash-table :test #'equal)) ; keys of expressions -> the signs they were seen to have
   (state 20011))    ; of the random numbers
 
-;;; Forms: a rational number, (at place), (+ form ..), (* form ..), (^ form power)
+;;; Forms: a rational number, (at place), (+ form ..), (* form ..), (^ form power); of polynomials
+;;; (whole form form), the first one to be taken at whole numbers, see there.
 
 (defun algebra-read-form (e search)
   "E as a form; throws nil to no-form where it is no rational function of names."
+  (let* ((form (algebra-plain-form e search)) (whole (catch 'no-whole (algebra-whole-form form))))
+    (if (and whole (consp form)) (list 'whole whole form) form)))
+
+(defun algebra-plain-form (e search)
   (let ((number (algebra-rational-number e)))
-    (flet ((forms () (loop for part in (cdr e) collect (algebra-read-form part search))))
+    (flet ((forms () (loop for part in (cdr e) collect (algebra-plain-form part search))))
       (cond (number)
             ((core-users-name-p e) (list 'at (algebra-search-place e search)))
             ((floatp e) (rationalize e))
@@ -31,7 +37,7 @@
             ((mplusp e) (cons '+ (forms)))
             ((mtimesp e) (cons '* (forms)))
             ((and (mexptp e) (typep (caddr e) '(integer -20 20)))
-             (list '^ (algebra-read-form (cadr e) search) (caddr e)))
+             (list '^ (algebra-plain-form (cadr e) search) (caddr e)))
             (t (throw 'no-form nil))))))
 
 (defun algebra-search-place (name search)
@@ -60,18 +66,87 @@
                  (throw 'no-value nil)
                  (expt base (caddr form))))))))
 
-(defun algebra-sign-at (form point)
+;;; Polynomials at x = X/d, X and d whole: d^n*s times the value is whole, and is found without
+;;; fractions. A sum is (+ (factor power . form) ..), of factor*d^power*form.
+
+(defun algebra-whole-form (form)
+  "Three values: the form, n and s; throws nil to no-whole where FORM is no polynomial."
+  (cond ((rationalp form) (values (numerator form) 0 (denominator form)))
+        ((eq (car form) 'at) (values form 1 1))
+        ((eq (car form) '+) (algebra-whole-sum (cdr form)))
+        ((eq (car form) '*) (algebra-whole-product (cdr form)))
+        ((minusp (caddr form)) (throw 'no-whole nil))
+        (t (destructuring-bind (base power) (cdr form)
+             (multiple-value-bind (whole n s) (algebra-whole-form base)
+               (values (list '^ whole power) (* n power) (expt s power)))))))
+
+(defun algebra-whole-sum (parts)
+  (let* ((found (loop for part in parts collect (multiple-value-list (algebra-whole-form part))))
+         (n (reduce #'max found :key #'second)) (s (reduce #'lcm found :key #'third)))
+    (values (cons '+ (loop for (whole k r) in found collect (list* (floor s r) (- n k) whole)))
+            n s)))
+
+(defun algebra-whole-product (parts)
+  (let ((n 0) (s 1))
+    (values (cons '* (loop for part in parts
+                           collect (multiple-value-bind (whole k r) (algebra-whole-form part)
+                                     (incf n k)
+                                     (setq s (* s r))
+                                     whole)))
+            n s)))
+
+(defun algebra-whole-at (form wholes)
+  "The value of FORM at WHOLES, the X and d."
+  (declare (type simple-vector wholes))
+  (if (atom form)
+      form
+      (ecase (car form)
+        (at (svref wholes (cadr form)))
+        (+ (let ((sum 0))
+             (loop for (factor power . part) in (cdr form)
+                   for value = (algebra-whole-at part wholes)
+                   do (unless (eql factor 1) (setq value (* factor value)))
+                      (unless (eql power 0)
+                        (setq value (* value (expt (svref wholes (1- (length wholes))) power))))
+                      (setq sum (+ sum value)))
+             sum))
+        (* (let ((product 1))
+             (dolist (part (cdr form) product)
+               (setq product (* product (algebra-whole-at part wholes))))))
+        (^ (expt (algebra-whole-at (cadr form) wholes) (caddr form))))))
+
+(defun algebra-wholes-of (point)
+  "The X of POINT, and d after them."
+  (let ((d (reduce #'lcm point :key #'denominator :initial-value 1)) (n (length point)))
+    (let ((wholes (make-array (1+ n) :initial-element d)))
+      (dotimes (i n wholes)
+        (let ((x (svref point i)))
+          (setf (svref wholes i) (* (numerator x) (floor d (denominator x)))))))))
+
+;;; Where a walk is: the point as rational numbers, which it changes, and as whole ones
+
+(defun algebra-place (point) (cons point (algebra-wholes-of point)))
+
+(defun algebra-value-in (form place)
+  "A positive multiple of the value of FORM at PLACE, the same at all of one d; nil where there is
+none."
+  (cond ((atom form) form)
+        ((eq (car form) 'whole) (algebra-whole-at (cadr form) (cdr place)))
+        (t (catch 'no-value (algebra-number-at form (car place))))))
+
+(defun algebra-sign-at (form place)
   "1, 0, -1, or nil where FORM has no value."
-  (let ((value (catch 'no-value (algebra-number-at form point))))
+  (let ((value (algebra-value-in form place)))
     (and value (signum value))))
 
 (defun algebra-coordinates-in (form)
   (cond ((atom form) '())
         ((eq (car form) 'at) (copy-list (cdr form)))
+        ((eq (car form) 'whole) (algebra-coordinates-in (caddr form)))
         (t (mapcan #'algebra-coordinates-in (cdr form)))))
 
-(defun algebra-condition-holds-p (condition point)
-  (member (algebra-sign-at (car condition) point) (cdr condition)))
+(defun algebra-condition-holds-p (condition place)
+  (member (algebra-sign-at (car condition) place) (cdr condition)))
 
 ;;; The walk
 
@@ -109,30 +184,54 @@
   (flet ((at (value)
            (let ((other (copy-seq point)))
              (setf (svref other place) value)
-             (catch 'no-value (algebra-number-at form other)))))
+             (algebra-value-in form (algebra-place other)))))
     (let ((start (at 0)) (end (at 1)) (number (algebra-search-number search)))
       (cond ((or (null start) (null end) (= start end)) number)
             ((zerop (algebra-search-below 3 search)) (/ start (- start end)))
             (t (+ (/ start (- start end)) number))))))
 
+(defstruct (algebra-judged (:conc-name judged-) (:predicate nil) (:copier nil))
+  "A condition, the places of the names in it, and whether it holds where the walk is."
+  condition places holds)
+
 (defun algebra-walk (conditions point search)
   "A point near POINT at which all CONDITIONS hold, or nil; POINT is changed."
-  (labels ((failing () (remove-if (lambda (c) (algebra-condition-holds-p c point)) conditions)))
-    (let ((open (failing)))
-      (loop repeat *algebra-walk-steps* while open
-            do (let* ((form (car (algebra-search-choice open search)))
-                      (place (algebra-search-choice (algebra-coordinates-in form) search))
-                      (value (and place (algebra-new-value form place point search))))
-                 (when (and value (< (integer-length (numerator value)) 20)
-                            (< (integer-length (denominator value)) 20))
-                   (let ((before (svref point place)) (now nil))
-                     (setf (svref point place) value
-                           now (failing))
-                     (if (or (<= (length now) (length open))
-                             (zerop (algebra-search-below 12 search)))
-                         (setq open now)
-                         (setf (svref point place) before))))))
-      (and (null open) point))))
+  (let* ((judged (algebra-judged-at point conditions)) (open (algebra-failing judged)))
+    (loop repeat *algebra-walk-steps* while open
+          do (let* ((failing (algebra-search-choice open search))
+                    (form (car (judged-condition failing)))
+                    (place (algebra-search-choice (judged-places failing) search))
+                    (value (and place (algebra-new-value form place point search))))
+               (when (and value (< (integer-length (numerator value)) 20)
+                          (< (integer-length (denominator value)) 20))
+                 (setq open (algebra-changed-place place value point judged open search)))))
+    (and (null open) point)))
+
+(defun algebra-judged-at (point conditions)
+  (loop with here = (algebra-place point)
+        for condition in conditions
+        collect (make-algebra-judged :condition condition
+                                     :places (algebra-coordinates-in (car condition))
+                                     :holds (algebra-condition-holds-p condition here))))
+
+(defun algebra-failing (judged)
+  (remove-if #'judged-holds judged))
+
+(defun algebra-changed-place (place value point judged open search)
+  "The conditions that fail with VALUE at PLACE, which stays so where they are no more than OPEN, or
+now and then; else OPEN."
+  (let* ((before (svref point place))
+         (touched (remove-if-not (lambda (j) (member place (judged-places j))) judged))
+         (held (mapcar #'judged-holds touched)))
+    (setf (svref point place) value)
+    (loop with here = (algebra-place point)
+          for j in touched
+          do (setf (judged-holds j) (algebra-condition-holds-p (judged-condition j) here)))
+    (let ((now (algebra-failing judged)))
+      (cond ((or (<= (length now) (length open)) (zerop (algebra-search-below 12 search))) now)
+            (t (setf (svref point place) before)
+               (loop for j in touched for holds in held do (setf (judged-holds j) holds))
+               open)))))
 
 ;;; The points of facts
 
@@ -161,26 +260,44 @@
   (coerce (loop repeat (length (search-names search)) collect (algebra-search-number search))
           'simple-vector))
 
-(defparameter *algebra-kept-searches* 500 "For how many lists of facts searches are kept.")
+(defparameter *algebra-kept-searches* 1500 "For how many lists of facts searches are kept.")
 (defvar *algebra-searches* (make-hash-table :test 'equal) "Searches by lists of facts.")
+
+(defvar *algebra-last-search* '(nil nil . nil) "The table, the facts and the search of last time.")
 
 (defun algebra-search-under (facts)
   "The search for FACTS, nil where it has no points."
-  (multiple-value-bind (search known) (gethash facts *algebra-searches*)
-    (cond (known search)
-          (t (when (>= (hash-table-count *algebra-searches*) *algebra-kept-searches*)
-               (clrhash *algebra-searches*))
-             (setf (gethash facts *algebra-searches*) (algebra-search-of facts))))))
+  (destructuring-bind (table last . search) *algebra-last-search*
+    (if (and (eq table *algebra-searches*) (eq facts last))
+        search
+        (let ((found (algebra-kept-search facts)))
+          (setq *algebra-last-search* (list* *algebra-searches* facts found))
+          found))))
+
+(defun algebra-kept-search (facts)
+  (let ((key (algebra-key facts)))
+    (multiple-value-bind (search known) (gethash key *algebra-searches*)
+      (cond (known search)
+            (t (when (>= (hash-table-count *algebra-searches*) *algebra-kept-searches*)
+                 (clrhash *algebra-searches*))
+               (setf (gethash key *algebra-searches*) (algebra-search-of facts)))))))
 
 (defun algebra-seen-signs (e facts)
   "Those of 1, 0, -1 that E was seen to have where FACTS hold."
-  (let* ((search (algebra-search-under facts))
-         (form (and search (< (algebra-size e) 1000)
-                    (catch 'no-form (algebra-read-form e search)))))
+  (let ((search (algebra-search-under facts)))
+    (when (and search (< (algebra-size e) 1000))
+      (let ((key (algebra-key e)))
+        (multiple-value-bind (signs known) (gethash key (search-seen search))
+          (if known
+              signs
+              (setf (gethash key (search-seen search)) (algebra-signs-at-points e search))))))))
+
+(defun algebra-signs-at-points (e search)
+  (let ((form (catch 'no-form (algebra-read-form e search))))
     (when form
       (let ((seen (delete nil (remove-duplicates
                                (loop for point in (search-points search)
-                                     collect (algebra-sign-at form point))))))
+                                     collect (algebra-sign-at form (algebra-place point)))))))
         (if (subsetp '(1 -1) seen) seen (algebra-more-signs form seen search))))))
 
 (defun algebra-more-signs (form seen search)
@@ -190,7 +307,7 @@
                              (copy-seq (algebra-search-choice (search-points search) search))
                              search)))
     (cond (found (algebra-keep-point found search)
-                 (adjoin (algebra-sign-at form found) seen))
+                 (adjoin (algebra-sign-at form (algebra-place found)) seen))
           (t seen))))
 
 (defun algebra-both-signs-seen-p (e facts)

@@ -9,7 +9,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/size" "algebra/kernels" "algebra/nouns" "algebra/constant_sign"
-                "algebra/factoring"))
+                "algebra/factoring" "algebra/memory"))
 
 (defvar *algebra-roots-apart* nil "true: roots of products become products of roots where allowed")
 (defvar *algebra-sign-judge* nil "the sign of what is no number, by the facts; set by facts.lisp")
@@ -93,7 +93,7 @@ of numbers, whole powers, roots of their own; the rest under one root, and that 
 
 (defun algebra-root-plan (base degree)
   (algebra-remembered *algebra-root-plans*
-                      (list* degree *algebra-roots-apart* (algebra-size base) base)
+                      (list* degree *algebra-roots-apart* base)
                       (lambda () (algebra-new-root-plan base degree))))
 
 (defun algebra-whole-powers (power degree)

@@ -9,7 +9,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/nouns" "algebra/zero" "algebra/known_signs"
+  (core-require "algebra/size" "algebra/memory" "algebra/nouns" "algebra/zero" "algebra/known_signs"
                 "algebra/points_of_facts" "algebra/sign_by_proof"
                 "algebra/sign_by_bounds" "algebra/packed_polynomials" "algebra/sign_by_parts"))
 
@@ -22,20 +22,33 @@
 
 (defun $algebra_positive (e)
   "true, false or unknown"
-  (if (algebra-both-signs-seen-p e (core-facts))
-      '$unknown
-      (case ($algebra_sign e)
-        ($pos t)
-        (($neg $zero $nz) nil)
-        (t '$unknown))))
+  (case (algebra-sign-among e '($pos $neg $zero $nz))
+    ($pos t)
+    ((nil) '$unknown)
+    (t nil)))
 
 (defun $algebra_sign_among (e signs)
-  "Whether the sign of E is proved to be one of SIGNS; where a point shows another no proof is
-sought."
-  (and (subsetp (algebra-seen-signs e (core-facts))
-                (reduce #'union (cdr signs) :key #'algebra-sign-values :initial-value '()))
-       (member ($algebra_sign e) (cdr signs))
-       t))
+  "Whether the sign of E is proved to be one of SIGNS."
+  (and (algebra-sign-among e (cdr signs)) t))
+
+(defun algebra-sign-among (e signs)
+  "The sign of E where it is proved to be one of SIGNS, else nil; where points show another no proof
+is sought."
+  (let* ((*algebra-knowledge* (algebra-what-is-known))
+         (sign (or (algebra-sign-at-sight e)
+                   (if (algebra-seen-among-p e signs) (algebra-sign e) '$unknown))))
+    (car (member sign signs))))
+
+(defun algebra-sign-at-sight (e)
+  "pos, neg or zero, where it costs no more than a look at E, or was found before."
+  (if (algebra-constant-p e)
+      (algebra-exact-sign (algebra-constant-sign e))
+      (kept-exact (algebra-signs-of e))))
+
+(defun algebra-seen-among-p (e signs)
+  "Whether one of SIGNS agrees with all that E was seen to have where the facts hold."
+  (let ((seen (algebra-seen-signs e (core-facts))))
+    (some (lambda (sign) (subsetp seen (algebra-sign-values sign))) signs)))
 
 (defun $algebra_nonzero (e)
   "Whether E cannot vanish under the facts: true; false where it vanishes identically; or unknown."
@@ -44,12 +57,14 @@ sought."
     ($zero nil)
     (t '$unknown)))
 
+(defvar *algebra-short-knowledges* (make-hash-table :test 'equal)
+  "Knowledge by lists of facts, where proofs stay short.")
+
 (defmspec $algebra_by_short_proofs (form)
   ;; algebra_by_short_proofs(e): the value of e, where proofs as sums of products stay short; what
-  ;; has no such one is unknown. Nothing of what is
-  ;; found so is kept.
+  ;; has no such one is unknown. What is found so is kept for questions of this sort alone.
   (let ((*algebra-certificate-size* 200)
-        (*algebra-knowledges* (make-hash-table :test 'equal))
+        (*algebra-knowledges* *algebra-short-knowledges*)
         (*algebra-discriminants-left* 1))
     (meval (second form))))
 
@@ -73,18 +88,35 @@ sought."
 (defun algebra-sign (e)
   (if (algebra-constant-p e)
       (algebra-constant-sign e)
-      (let ((sign (algebra-simple-sign e)))
-        (if (member sign '($pos $neg $zero))
-            sign
-            (algebra-remembered-sign e sign)))))
+      (let ((signs (algebra-signs-of e)))
+        (or (kept-exact signs)
+            (cdr (assoc *algebra-discriminants-left* (kept-open signs)))
+            (algebra-new-sign e signs)))))
 
-(defun algebra-remembered-sign (e plain)
-  "What is not decided is remembered for questions of the same depth alone."
-  (let ((memo (knowledge-memo *algebra-knowledge*)) (here (cons *algebra-discriminants-left* e)))
-    (or (gethash e memo)
-        (gethash here memo)
-        (let ((sign (algebra-both-signs plain (algebra-quotient-sign e))))
-          (setf (gethash (if (member sign '($pos $neg $zero)) e here) memo) sign)))))
+(defstruct (algebra-signs (:conc-name kept-) (:predicate nil) (:copier nil))
+  "What is kept of the sign of an expression under the same facts."
+  (plain nil) ; as it stands
+  (exact nil) ; pos, neg or zero, where that is proved
+  (open '())) ; else what was found, by how deep it was sought
+
+(defun algebra-signs-of (e)
+  "What is kept of the sign of E, its plain sign at least."
+  (let ((memo (knowledge-memo *algebra-knowledge*)) (key (algebra-key e)))
+    (or (gethash key memo)
+        (let ((plain (algebra-simple-sign e)))
+          (setf (gethash key memo)
+                (make-algebra-signs :plain plain :exact (algebra-exact-sign plain)))))))
+
+(defun algebra-exact-sign (sign)
+  (car (member sign '($pos $neg $zero))))
+
+(defun algebra-new-sign (e signs)
+  "What is not decided is kept for questions of the same depth alone."
+  (let ((sign (algebra-both-signs (kept-plain signs) (algebra-quotient-sign e))))
+    (if (algebra-exact-sign sign)
+        (setf (kept-exact signs) sign)
+        (push (cons *algebra-discriminants-left* sign) (kept-open signs)))
+    sign))
 
 (defun algebra-quotient-sign (e)
   "By numerator and denominator in normal form."
@@ -119,23 +151,24 @@ sought."
   "The sign of a FACTOR that does not come apart; the dearer the method, the shorter what it takes."
   (let ((size (algebra-size factor)))
     (if (and (mplusp factor) (< size 1000))
-        (algebra-first-answer (list* #'algebra-simple-sign #'algebra-root-free-sign
-                                     #'algebra-sign-by-one-fact #'algebra-shifted-sign
-                                     (and (< size 250)
-                                          (not (algebra-both-signs-seen-p
-                                                factor (knowledge-facts *algebra-knowledge*)))
-                                          (list #'algebra-discriminant-sign
-                                                #'algebra-root-balance-sign
-                                                #'algebra-proved-sign)))
-                              ($expand factor))
+        (let* ((e ($expand factor)) (plain (algebra-simple-sign e)))
+          (if (or (algebra-exact-sign plain)
+                  (algebra-both-signs-seen-p factor (knowledge-facts *algebra-knowledge*)))
+              plain
+              (algebra-first-answer (list* #'algebra-root-free-sign #'algebra-sign-by-one-fact
+                                           #'algebra-shifted-sign
+                                           (and (< size 250)
+                                                (list #'algebra-discriminant-sign
+                                                      #'algebra-root-balance-sign
+                                                      #'algebra-proved-sign)))
+                                    e plain)))
         (algebra-simple-sign factor))))
 
-(defun algebra-first-answer (methods e)
-  "The first exact sign, else the strongest half answer."
-  (let ((answer '$unknown))
-    (dolist (method methods answer)
-      (setq answer (algebra-both-signs answer (funcall method e)))
-      (when (member answer '($pos $neg $zero)) (return answer)))))
+(defun algebra-first-answer (methods e answer)
+  "The first exact sign, else the strongest half answer, ANSWER being one."
+  (dolist (method methods answer)
+    (setq answer (algebra-both-signs answer (funcall method e)))
+    (when (algebra-exact-sign answer) (return answer))))
 
 ;;; A square and what it lacks
 

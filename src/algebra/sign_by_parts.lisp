@@ -16,6 +16,7 @@
   (items '())     ; ((name or kernel . sign) ..)
   (names (make-hash-table :test #'eq)) ; the same entries by their names
   (sums '())      ; ((expanded sum . sign) ..)
+  (turned '())    ; ((- the same sum . that entry) ..)
   (contradiction nil)
   (memo (make-hash-table :test #'equal)))
 
@@ -53,12 +54,20 @@
       (assoc e (knowledge-items *algebra-knowledge*) :test #'alike1)))
 
 (defun algebra-known-sum (sum)
-  (let ((sums (and *algebra-knowledge* (knowledge-sums *algebra-knowledge*))))
-    (flet ((known (e) (cdr (assoc e sums :test #'alike1))))
-      (cond ((null sums) '$unknown)
-            ((known sum))
-            ((let ((turned (known (mul -1 sum)))) (and turned (algebra-opposite-sign turned))))
-            (t '$unknown)))))
+  (let ((entry (and *algebra-knowledge* (algebra-entry-of-sum sum))))
+    (if entry
+        (cdr entry)
+        (let ((turned (and *algebra-knowledge*
+                           (assoc sum (knowledge-turned *algebra-knowledge*) :test #'alike1))))
+          (if turned (algebra-opposite-sign (cddr turned)) '$unknown)))))
+
+(defun algebra-entry-of-sum (sum)
+  (assoc sum (knowledge-sums *algebra-knowledge*) :test #'alike1))
+
+(defun algebra-note-sum (sum turned sign)
+  (let ((entry (cons sum sign)))
+    (push entry (knowledge-sums *algebra-knowledge*))
+    (push (cons turned entry) (knowledge-turned *algebra-knowledge*))))
 
 ;;; Signs of sums, products, powers
 

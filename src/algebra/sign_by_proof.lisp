@@ -10,7 +10,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/packed_polynomials" "algebra/sign_by_parts"))
+  (core-require "algebra/memory" "algebra/packed_polynomials" "algebra/sign_by_parts"))
 
 ;;; Linear programming over the rationals: the largest c.x where A x = b, x >= 0, by the simplex
 ;;; method in two phases with Bland's rule, which does not cycle (Chvatal, Linear Programming, 3).
@@ -160,8 +160,12 @@ of kernels."
 
 (defun algebra-certificate (e gaps)
   "pos or pz where that is proved of the expanded polynomial E from the GAPS, else unknown."
-  (let* ((gaps (algebra-related-gaps e gaps))
-         (kernels (algebra-kernels-of (cons e (mapcar #'car gaps))))
+  (let ((gaps (algebra-related-gaps e gaps)))
+    (algebra-kept 'certificate (list* *algebra-certificate-size* e gaps)
+                  (lambda () (algebra-new-certificate e gaps)))))
+
+(defun algebra-new-certificate (e gaps)
+  (let* ((kernels (algebra-kernels-of (cons e (mapcar #'car gaps))))
          (target (algebra-table-of e kernels))
          (degree (max 2 (algebra-table-degree target)))
          (generators (remove-if (lambda (g) (> (algebra-table-degree (car g)) degree))

@@ -54,24 +54,6 @@ questions are errors, too."
 (defun algebra-short-text (e)
   (core-cut (coerce (mstring e) 'string)))
 
-;;; What is asked again and again is kept while the facts are the same.
-
-(defstruct (algebra-memory (:conc-name memory-))
-  (answers (make-hash-table :test #'equal))
-  (facts '()))
-
-(defparameter *algebra-most-answers* 500 "How many answers a memory keeps.")
-
-(defun algebra-remembered (memory key function)
-  "The value of FUNCTION, kept in MEMORY under KEY."
-  (let ((answers (memory-answers memory)) (facts (core-facts)))
-    (when (or (not (equal facts (memory-facts memory)))
-              (>= (hash-table-count answers) *algebra-most-answers*))
-      (clrhash answers)
-      (setf (memory-facts memory) facts))
-    (multiple-value-bind (answer kept) (gethash key answers)
-      (if kept answer (setf (gethash key answers) (funcall function))))))
-
 ;;; ---- size
 
 (defvar *algebra-limit* 400000 "largest number of terms that an expansion may be predicted to give")

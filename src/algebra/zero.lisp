@@ -13,6 +13,7 @@
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
   (core-require "algebra/constant_sign" "algebra/evaluate" "algebra/interval" "algebra/kernels"
+                "algebra/memory"
                 "algebra/modular" "algebra/normal" "algebra/noun_values" "algebra/nouns"
                 "algebra/random_numbers" "algebra/real_roots"
                 "algebra/relations" "algebra/root_kernels" "algebra/scan" "algebra/size"))
@@ -155,6 +156,11 @@ products apart, all multiples of angles expanded, nouns taken apart."
 
 (defun algebra-remainder-test (e)
   "zero; not-zero; dependent: no zero polynomial, but its kernels may be bound; too-large."
+  (if (algebra-plain-p e)
+      (algebra-kept 'remainder e (lambda () (algebra-new-remainder-test e)))
+      (algebra-new-remainder-test e)))
+
+(defun algebra-new-remainder-test (e)
   (with-algebra-ring
     (with-algebra-zero-form
       (let ((skeleton (algebra-scan e)))

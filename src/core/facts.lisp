@@ -8,6 +8,8 @@
 
 (defvar *core-facts* :session
   "The relations that hold, a list; :session outside of a call: whatever is assumed there.")
+(defvar *core-answers* nil
+  "What is kept until a public call ends: a table, nil outside of one.")
 (defvar *core-fact-judge* nil
   "Part and function that find the signs of single names from relations.")
 
@@ -239,7 +241,8 @@ which is more than was said."
   "Calls FUNCTION while FACTS and the session's facts hold, and only their signs of single names
 stand in Maxima's data base."
   (let* ((*core-facts* (core-usable-facts facts))
-         (signs (core-judged *core-facts*)))
+         (signs (core-judged *core-facts*))
+         (*core-answers* (make-hash-table :test 'equal)))
     (core-without-session-facts
      (lambda ()
        (if (eq signs :contradiction)

@@ -194,6 +194,10 @@ with this sentence."
         (loop for list in (cdr lists)
               append (if ($listp list) (cdr list) (core-error "found ~a, expected a list" list)))))
 
+(defun $core_distinct (list)
+  "LIST without what is alike an element before."
+  (cons '(mlist simp) (remove-duplicates (cdr list) :test #'alike1 :from-end t)))
+
 (defun core-attempt (function)
   "A list of the value of FUNCTION, or nil when it ends in an error; nothing is printed and `error'
 keeps its value."
