@@ -11,9 +11,12 @@
   (core-require "algebra/normal"))
 
 (defun analysis-program-answer (name arguments input seconds)
-  "What the program NAME prints, or nil where it is not there."
+  "What the program NAME prints, or nil where it is not there; it has SECONDS at most, and no more
+than the call has left: it is ended by the program timeout, as the clock waits while one runs."
   #+sbcl
-  (let ((process nil) (folder (analysis-empty-folder)))
+  (let ((process nil)
+        (folder (analysis-empty-folder))
+        (seconds (ceiling (min seconds (or (core-seconds-left) seconds)))))
     (unwind-protect
          (ignore-errors
           (with-output-to-string (out)
