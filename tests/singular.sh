@@ -21,7 +21,7 @@ cases() { # writes them; how many there are
 
 judge() { # CASE: what Singular says in its time, or that it says nothing
   cat "$here/ideals_judge.sing" "case_$1.sing" >judged.sing
-  timeout -k 2 20 Singular -q --no-rc --no-warn judged.sing </dev/null 2>&1 | grep -v '^//' >said
+  timeout -k 2 20 Singular -q --no-rc --no-warn judged.sing </dev/null 2>&1 | grep -v '^//\|^halt \|^ *$' >said
   [ -s said ] || echo "too long" >said
   cat said
 }
