@@ -64,15 +64,25 @@
     (and place
          (core-attempt
           (lambda ()
+            (when (forms-jumps-there-p by-sign place) (core-error "more jumps there"))
             (let ((there (maxima-substitute (cdr place) (car place) by-sign)))
               (or (eq t ($algebra_zerop
                          (add there (maxima-substitute (neg sign) sign there))))
                   (core-error "the impulse moves")))))
          t)))
 
+(defun forms-jumps-there-p (e place)
+  "Whether the argument of a sign in E may vanish at PLACE too, (name . value)."
+  (and (algebra-call-p e)
+       (or (some (lambda (part) (forms-jumps-there-p part place)) (cdr e))
+           (and (member (caar e) '(%signum $unit_step $piecewise))
+                (not (eq nil ($algebra_zerop
+                              (maxima-substitute (cdr place) (car place) (second e)))))))))
+
 (defun forms-place-of-zero (u names)
-  "(name . value) where U, linear in the name, is 0; or nil."
+  "(name . value) where U is 0, all of it: the slope in the name does not change; or nil."
   (loop for name in names
         for slope = ($algebra_diff u name)
-        when (and (not (among name slope)) (eq ($algebra_zerop slope) nil))
+        when (and (notany (lambda (other) (among other slope)) names)
+                  (eq ($algebra_zerop slope) nil))
           return (cons name (sub name (div u slope)))))
