@@ -157,7 +157,8 @@ products apart, all multiples of angles expanded, nouns taken apart."
 (defun algebra-remainder-test (e)
   "zero; not-zero; dependent: no zero polynomial, but its kernels may be bound; too-large."
   (if (algebra-plain-p e)
-      (algebra-kept 'remainder e (lambda () (algebra-new-remainder-test e)))
+      (algebra-kept (list 'remainder *algebra-limit*) e
+                    (lambda () (algebra-new-remainder-test e)))
       (algebra-new-remainder-test e)))
 
 (defun algebra-new-remainder-test (e)
