@@ -66,7 +66,7 @@
           (lambda ()
             (when (forms-jumps-there-p by-sign place) (core-error "more jumps there"))
             (let ((there (maxima-substitute (cdr place) (car place) by-sign)))
-              (or (eq t ($algebra_zerop
+              (or (eq t ($algebra_zero_at_samples
                          (add there (maxima-substitute (neg sign) sign there))))
                   (core-error "the impulse moves")))))
          t)))
@@ -76,7 +76,7 @@
   (and (algebra-call-p e)
        (or (some (lambda (part) (forms-jumps-there-p part place)) (cdr e))
            (and (member (caar e) '(%signum $unit_step $piecewise))
-                (not (eq nil ($algebra_zerop
+                (not (eq nil ($algebra_zero_at_samples
                               (maxima-substitute (cdr place) (car place) (second e)))))))))
 
 (defun forms-place-of-zero (u names)
