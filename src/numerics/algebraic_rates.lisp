@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/program_derivative" "algebra/program_from_expressions"
+  (core-require "algebra/minors" "algebra/program_derivative" "algebra/program_from_expressions"
                 "algebra/program_nodes" "forms/rates" "numerics/run"))
 
 (defun numerics-no-rate-p (row)
@@ -33,19 +33,13 @@
 (defparameter *numerics-most-followed* 6 "States that a determinant is written out for.")
 
 (defun numerics-determinant-element (rows)
-  "The determinant of ROWS, along their first column."
-  (if (null rows)
-      1
-      (let ((sum 0))
-        (loop for row in rows
-              for sign = 1 then (- sign)
-              unless (eql (first row) 0)
-                do (setq sum (algebra-program-add
-                              sum (algebra-program-multiply
-                                   (algebra-program-multiply sign (first row))
-                                   (numerics-determinant-element
-                                    (mapcar #'rest (remove row rows :test #'eq :count 1)))))))
-        sum)))
+  (let* ((n (length rows)) (all (algebra-all-of n)))
+    (funcall (algebra-minors (make-array (list n n) :initial-contents rows) #'algebra-last-row
+                             (lambda (sign entry minor)
+                               (algebra-program-multiply (algebra-program-multiply sign entry)
+                                                         minor))
+                             #'algebra-program-add)
+             all all)))
 
 (defun numerics-with-column (rows place column)
   (loop for row in rows
