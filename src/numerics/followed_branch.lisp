@@ -64,15 +64,31 @@
     (loop for k below count
           collect (+ (* da (aref tilts k)) (* db (aref tilts (+ count k)))))))
 
+(defun numerics-moved (state shift share)
+  "STATE and SHARE of SHIFT."
+  (let ((moved (copy-seq state)))
+    (loop for d in shift
+          for k from 0
+          do (incf (aref moved k) (* share d)))
+    moved))
+
+(defun numerics-steady-p (branch state shift)
+  "Whether the determinant stays within half and twice what it is at STATE along SHIFT, so that no
+fold lies between."
+  (flet ((determinant (state) (aref (funcall (numerics-branch-determinant branch) state) 0)))
+    (let ((here (determinant state)))
+      (loop for share in '(0.25d0 0.5d0 0.75d0 1d0)
+            for ratio = (/ (determinant (numerics-moved state shift share)) here)
+            always (and (numerics-finite-p ratio) (< 0.5d0 ratio 2d0))))))
+
 (defun numerics-next-on-branch (branch state da db)
   "STATE moved on by DA and DB; nil where w cannot be followed so far."
-  (let ((next (copy-seq state)) (change (numerics-tilt branch state da db)))
-    (incf (aref next 0) da)
-    (incf (aref next 1) db)
-    (loop for dw in change
-          for k from 2
-          do (incf (aref next k) dw))
-    (and (numerics-corrected-p branch next (numerics-allowed-correction branch change)) next)))
+  (let* ((change (numerics-tilt branch state da db)) (shift (list* da db change)))
+    (when (numerics-steady-p branch state shift)
+      (let ((next (numerics-moved state shift 1d0)))
+        (and (numerics-corrected-p branch next (numerics-allowed-correction branch change))
+             (numerics-steady-p branch state (map 'list #'- next state))
+             next)))))
 
 (defun numerics-branch-at (branch a b)
   "The vector (A B w ..) on BRANCH; nil where it does not reach so far along a line."
