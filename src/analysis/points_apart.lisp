@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Solutions that differ at sight: of thousands of points each is compared with all others.
+;;; What is seen at sight of two solutions [x = .., ..]: of thousands each is compared with all.
 
 (in-package :maxima)
 
@@ -15,3 +15,14 @@
                        (and there
                             (algebra-rational-number (caddr there))
                             (not (alike1 value (caddr there))))))))
+
+(defun $analysis_left_to_prove (other s)
+  "Those equations x = .. of OTHER that S does not have as they are, of names that S leaves free."
+  (let ((given (mapcar #'cadr (cdr s))))
+    (remove-if (lambda (equation)
+                 (destructuring-bind (name value) (cdr equation)
+                   (let ((there (find name (cdr s) :key #'cadr :test #'eq)))
+                     (and there (alike1 value (caddr there))
+                          (or (atom value) ($lfreeof (cons '(mlist) given) value))
+                          (not (member value given :test #'eq))))))
+               other :start 1)))
