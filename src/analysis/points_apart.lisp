@@ -17,7 +17,7 @@
                             (not (alike1 value (caddr there))))))))
 
 (defun $analysis_left_to_prove (other s)
-  "Those equations x = .. of OTHER that S does not have as they are, of names that S leaves free."
+  "Those equations x = .. of OTHER but such as stand in S, with values of names that S leaves free."
   (let ((given (mapcar #'cadr (cdr s))))
     (remove-if (lambda (equation)
                  (destructuring-bind (name value) (cdr equation)

@@ -69,9 +69,19 @@
       (archive-attempted (list* '($atan2) arguments))
       (archive-inert '$atan2 arguments)))
 
+(defun archive-even-p (exponent)
+  "Whether x^EXPONENT is the same for x and -x."
+  (if (ratnump exponent)
+      (evenp (cadr exponent))
+      (and (integerp exponent) (evenp exponent))))
+
 (defun archive-logarithm (e)
+  "log(E); of x^2 it is 2*log(abs(x)), where Maxima would have 2*log(x)."
   (cond ((zerop1 e) (archive-refuse "log(0) has no value"))
         ((floatp e) (archive-inert '%log (list e)))
+        ((and (mexptp e) (archive-even-p (caddr e)))
+         (archive-product
+          (list (caddr e) (archive-logarithm (archive-absolute-value (cadr e))))))
         (t (archive-attempted (list '(%log) e)))))
 
 ;;; Spellings: Cos[th], ctg(x), arcsin(x). Maxima takes Cos[th] for a constant with a subscript and

@@ -187,15 +187,25 @@ its deadline counts too."
   (multiple-value-bind (value stop) (core-timed seconds function)
     (if stop (core-signal stop) value)))
 
+(defvar *core-shares-ended* 0 "How often a share of the time was not enough.")
+
+(defun $core_shares_ended () *core-shares-ended*)
+
+(defun core-timed-share (seconds function &optional seconds-of-work)
+  "As core-timed; it is counted where that was not enough."
+  (multiple-value-bind (value stop) (core-timed seconds function seconds-of-work)
+    (when stop (incf *core-shares-ended*))
+    (values value stop)))
+
 (defun core-within (time function)
   "As core-timed: FUNCTION has TIME seconds, or from 1 down that share of the time left."
   (let ((left (core-seconds-left)))
-    (core-timed (cond ((> time 1) time) (left (* time left))) function)))
+    (core-timed-share (cond ((> time 1) time) (left (* time left))) function)))
 
 (defun core-within-at-most (seconds share function)
   "The same with this SHARE of the time left, and never more than so many SECONDS of work."
   (let ((left (core-seconds-left)))
-    (core-timed (and left (* share left)) function seconds)))
+    (core-timed-share (and left (* share left)) function seconds)))
 
 (defun core-time (e)
   "E as a positive number."
