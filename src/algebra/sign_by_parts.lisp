@@ -125,6 +125,8 @@
         ((eq a b) '$pz)
         (t '$nz)))
 
+(defun $algebra_times_sign (a b) (algebra-times-sign a b))
+
 (defun algebra-power-sign (base exponent)
   "Roots of odd order of negative numbers are real, as Maxima has them."
   (let ((number (algebra-rational-number exponent)))
