@@ -31,6 +31,10 @@ very list of facts of the last one, which may be thousands."
                 *algebra-last-knowledge* (cons *algebra-knowledges* known))
           known))))
 
+(defun algebra-learned-before-p ()
+  "Whether what is known here is kept."
+  (and (gethash (algebra-key (core-facts)) *algebra-knowledges*) t))
+
 (defun algebra-knowledge-of (facts)
   (let ((key (algebra-key facts)))
     (when (>= (hash-table-count *algebra-knowledges*) *algebra-kept-knowledge*)

@@ -33,11 +33,12 @@
 
 (defun algebra-sign-among (e signs)
   "The sign of E where it is proved to be one of SIGNS, else nil; where points show another no proof
-is sought."
-  (let* ((*algebra-knowledge* (algebra-what-is-known))
-         (sign (or (algebra-sign-at-sight e)
-                   (if (algebra-seen-among-p e signs) (algebra-sign e) '$unknown))))
-    (car (member sign signs))))
+is sought, nor is anything learned of facts that are new."
+  (when (or (algebra-constant-p e) (algebra-learned-before-p) (algebra-seen-among-p e signs))
+    (let* ((*algebra-knowledge* (algebra-what-is-known))
+           (sign (or (algebra-sign-at-sight e)
+                     (if (algebra-seen-among-p e signs) (algebra-sign e) '$unknown))))
+      (car (member sign signs)))))
 
 (defun algebra-sign-at-sight (e)
   "pos, neg or zero, where it costs no more than a look at E, or was found before."
