@@ -168,7 +168,10 @@ subscripts, and a formula may stand for a law of its own.")
                     [..] in Equilibria, or name one solution, [x = .., ..]")))
 
 (defun archive-as-solution (value)
-  (if (archive-items value) (archive-as-movement value) (archive-unfit)))
+  "[] where a function finds all of them: it refuses it else."
+  (cond ((archive-items value) (archive-as-movement value))
+        ((archive-list-p value) value)
+        (t (archive-unfit))))
 
 (defun archive-formula-inside (value)
   (unless (archive-formula-p value)
