@@ -56,11 +56,22 @@ very list of facts of the last one, which may be thousands."
     (algebra-learn-all products)
     (when (algebra-learn-names) (algebra-learn-all products))
     (clrhash (knowledge-memo knowledge))
+    (when (algebra-products-contradict-p) (setf (knowledge-contradiction knowledge) t))
     (unless (knowledge-contradiction knowledge)
       (setf (knowledge-contradiction knowledge)
             (and (knowledge-sums knowledge) (null (algebra-search-under facts))
                  (algebra-gaps-contradict-p (algebra-gaps knowledge)))))
     knowledge))
+
+(defun algebra-products-contradict-p ()
+  "Whether of known products one has another sign than the others give it."
+  (let ((all (knowledge-products *algebra-knowledge*)))
+    (loop for row in all
+          thereis (progn
+                    (setf (knowledge-products *algebra-knowledge*) (remove row all :test #'eq))
+                    (let ((sign (algebra-sign-by-products (car row))))
+                      (setf (knowledge-products *algebra-knowledge*) all)
+                      (algebra-opposed-p sign (cdr row)))))))
 
 (defun algebra-learn-all (products)
   "Looks at all PRODUCTS and sums until nothing more comes."
@@ -91,7 +102,8 @@ very list of facts of the last one, which may be thousands."
 
 (defun algebra-known-count (knowledge)
   "Changes whenever something is learned."
-  (list (mapcar #'cdr (knowledge-items knowledge)) (mapcar #'cdr (knowledge-sums knowledge))))
+  (list (mapcar #'cdr (knowledge-items knowledge)) (mapcar #'cdr (knowledge-sums knowledge))
+        (mapcar #'cdr (knowledge-products knowledge))))
 
 ;;; The sign of a factor of a radicand, asked while a normal form or a zero test is under way
 
@@ -181,7 +193,16 @@ a fact of one name alone says is then known; the others are given back, to be lo
       (cond ((not (member others '($pos $neg))))
             ((null open) (algebra-agree others sign))
             (t (let ((rest (if (cdr open) (algebra-open-product open) (car open))))
+                 (when (cdr open)
+                   (algebra-note-product open (algebra-times-sign others sign)))
                  (when rest (algebra-learn rest (algebra-times-sign others sign)))))))))
+
+(defun algebra-note-product (factors sign)
+  (let ((entry (assoc factors (knowledge-products *algebra-knowledge*)
+                      :test #'algebra-same-factors-p)))
+    (if entry
+        (setf (cdr entry) (algebra-agree (cdr entry) sign))
+        (push (cons factors sign) (knowledge-products *algebra-knowledge*)))))
 
 (defun algebra-open-product (factors)
   "The expanded product of FACTORS, or nil, nothing to learn, where it would be long."

@@ -129,7 +129,7 @@ is sought, nor is anything learned of facts that are new."
 
 (defun algebra-factors-sign (factors)
   "Of ((factor . power) ..); factors of open sign by themselves and all together."
-  (let ((known '$pos) (half '$pos) (open '()))
+  (let ((known '$pos) (half '$pos) (open '()) (odd '()) (squares '$pos))
     (loop for (factor . power) in factors
           for sign = (algebra-odd-root-sign (if ($constantp factor)
                                                 (algebra-constant-sign factor)
@@ -138,11 +138,18 @@ is sought, nor is anything learned of facts that are new."
           do (cond ((member sign '($pos $neg $zero))
                     (setq known (algebra-times-sign known sign)))
                    (t (setq half (algebra-times-sign half sign))
-                      (push (if (oddp power) factor (power factor 2)) open))))
+                      (push (if (oddp power) factor (power factor 2)) open)
+                      (if (oddp power)
+                          (push factor odd)
+                          (setq squares (algebra-times-sign squares sign))))))
     (algebra-times-sign known
-                        (if (cdr open)
-                            (algebra-both-signs half (algebra-together-sign open))
-                            half))))
+                        (algebra-both-signs
+                         (if odd
+                             (algebra-times-sign squares (algebra-sign-by-products odd))
+                             '$unknown)
+                         (if (cdr open)
+                             (algebra-both-signs half (algebra-together-sign open))
+                             half)))))
 
 (defun algebra-together-sign (factors)
   (let ((product (algebra-open-product factors)))

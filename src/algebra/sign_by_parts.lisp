@@ -8,8 +8,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/size" "algebra/noun_values" "algebra/nouns" "algebra/zero"
-                "algebra/constant_sign"))
+  (core-require "algebra/constant_sign" "algebra/noun_values" "algebra/nouns" "algebra/size"
+                "algebra/zero"))
 
 (defstruct (algebra-knowledge (:conc-name knowledge-))
   facts           ; the relations it was made from
@@ -17,6 +17,7 @@
   (names (make-hash-table :test #'eq)) ; the same entries by their names
   (sums '())      ; ((expanded sum . sign) ..)
   (turned '())    ; ((- the same sum . that entry) ..)
+  (products '())  ; (((factor factor ..) . sign) ..), of factors whose signs are open
   (contradiction nil)
   (memo (make-hash-table :test #'equal)))
 
@@ -63,6 +64,32 @@
 
 (defun algebra-entry-of-sum (sum)
   (assoc sum (knowledge-sums *algebra-knowledge*) :test #'alike1))
+
+(defun algebra-same-factors-p (a b)
+  (null (set-exclusive-or a b :test #'alike1)))
+
+(defun algebra-sign-by-products (factors)
+  "Of the product of FACTORS: that of a known one, or of several that are not zero, in whose product
+all others are squares; else unknown."
+  (let ((known (and *algebra-knowledge* (knowledge-products *algebra-knowledge*))))
+    (or (cdr (assoc factors known :test #'algebra-same-factors-p))
+        (loop with rows = (remove-if-not (lambda (row) (member (cdr row) '($pos $neg))) known)
+              with rest = (cons factors '$pos)
+              while (car rest)
+              do (let ((row (pop rows)))
+                   (unless row (return '$unknown))
+                   (flet ((reduced (other) (algebra-without-factor (caar row) row other)))
+                     (when (car row)
+                       (setq rows (mapcar #'reduced rows)
+                             rest (reduced rest)))))
+              finally (return (cdr rest))))))
+
+(defun algebra-without-factor (factor row other)
+  "OTHER, ROW multiplied to it where FACTOR stands in it."
+  (if (member factor (car other) :test #'alike1)
+      (cons (set-exclusive-or (car other) (car row) :test #'alike1)
+            (algebra-times-sign (cdr other) (cdr row)))
+      other))
 
 (defun algebra-note-sum (sum turned sign)
   (let ((entry (cons sum sign)))

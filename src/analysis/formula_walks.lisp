@@ -16,13 +16,13 @@
 
 (defun $analysis_parts_with_conditions (e)
   "The parts of E, or of a list, that have a real value under conditions alone: u^r but with whole
-r > 0, logarithms, arcs of sines and cosines; each before those within it."
+r > 0, logarithms, inverse functions; each before those within it."
   (cons '(mlist simp) (analysis-parts-with-conditions e)))
 
 (defun analysis-parts-with-conditions (e)
   (unless ($mapatom e)
     (append (and (if (mexptp e)
-                     (or (ratnump (caddr e)) (typep (caddr e) '(integer * -1)))
-                     (member (caar e) '(%log %asin %acos)))
+                     (or (not (integerp (caddr e))) (minusp (caddr e)))
+                     (member (caar e) '(%log %asin %acos %asec %acsc %acosh %atanh %acoth %asech)))
                  (list e))
             (mapcan #'analysis-parts-with-conditions (cdr e)))))

@@ -9,7 +9,7 @@
 
 (core-public "SecondVariation"
   :forms '(("function" "K" "variables" "solution" "&optional" "integrals")) :options '("manifold"))
-(core-rule "SecondVariation" '("function") "analysis/variation" "analysis_second_variation"
+(core-rule "SecondVariation" '("function") "analysis/variation" "analysis_second_variation_named"
   "K" "variables" "solution" (list "integrals" *analysis-none*) (list "manifold" *analysis-none*))
 
 (core-public "RouthLyapunov"
