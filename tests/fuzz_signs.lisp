@@ -202,6 +202,51 @@
             return (list '(mlist simp) what form after (cons '(mlist simp) facts)
                          (signs-shown point)))))
 
+;;; Facts on products, and products that follow from several
+
+(defun signs-factor ()
+  (case (signs-random 4)
+    (0 (sub (signs-choice *signs-names*) (signs-choice *signs-names*)))
+    (1 (sub (signs-choice *signs-names*) (signs-number-m)))
+    (t (signs-choice *signs-names*))))
+
+(defun signs-product (factors)
+  (muln (cons (signs-choice '(1 -1 2))
+              (loop for f in factors
+                    when (zerop (signs-random 2))
+                      collect (if (zerop (signs-random 5)) (power f 2) f)))
+        nil))
+
+(defun signs-related (e point)
+  "A relation of E to 0 that holds at POINT."
+  (let ((value (signs-value e point)))
+    (list (signs-choice (cond ((plusp value) '((mgreaterp) (mgeqp)))
+                              ((minusp value) '((mlessp) (mleqp)))
+                              (t '((mgeqp) (mleqp)))))
+          e 0)))
+
+(defun signs-wrong-product ()
+  "A sign that a point refutes, or a contradiction that facts are said to have which hold at one."
+  (let* ((point (signs-point)) (factors (loop repeat 4 collect (signs-factor)))
+         (facts (loop repeat (1+ (signs-random 4))
+                      collect (signs-related (signs-product factors) point)))
+         (more (signs-related (signs-product factors) point))
+         (e (signs-product factors)) (points (signs-points facts point 30)))
+    (core-guarded facts
+      (lambda ()
+        (let ((sign ($algebra_sign e)))
+          (or (and ($algebra_contradictory (list '(mlist) more))
+                   (list '(mlist simp) "contradictory" more (cons '(mlist simp) facts)
+                         (signs-shown point)))
+              (loop for p in points
+                    unless (member sign (signs-of-value (signs-value e p)))
+                      return (list '(mlist simp) sign e (cons '(mlist simp) facts)
+                                   (signs-shown p)))))))))
+
+(defun $fuzz_products (count seed)
+  "The failures among COUNT random cases from SEED."
+  (signs-failures count seed #'signs-wrong-product))
+
 (defun signs-shown (point)
   (cons '(mlist simp) (loop for (name . value) in point
                             collect (list '(mequal simp) name (algebra-maxima-rational value)))))

@@ -29,6 +29,7 @@ reasons 300 5|src/circuits/tree.mac|        circuits_structure_loops(structure),
 branches 1000 3|src/numerics/followed_branch.lisp|for share in '(0.25d0 0.5d0 0.75d0 1d0)|for share in '()
 left_impulses 800 3|src/forms/impulses_left_out.lisp|(notany (lambda (other) (among other slope)) names)|(not (among name slope))
 left_impulses 800 3|src/forms/impulses_left_out.lisp|(when (forms-jumps-there-p by-sign place)|(when nil
+products 1000 5|src/algebra/sign_by_parts.lisp|(member (cdr row) '($pos $neg))|(member (cdr row) '($pos $neg $pz $nz))
 signs 1000 5|src/algebra/known_signs.lisp|(eq facts (knowledge-facts last)))|t)
 places 200 3|src/analysis/vanishing_in_places.mac|then is(algebra_zerop(e) # false)|then false
 places 600 3|src/analysis/vanishing_in_places.mac|'abs then \[first(parts), -first(parts)\]|'abs then [-first(parts)]
