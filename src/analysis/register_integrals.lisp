@@ -14,7 +14,7 @@
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers" "within" "K" "function")
+  :options '("where" "unknowns" "multipliers" "within" "K" "function") :emptied '("solution")
   :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
 (core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
   "analysis_routh_lyapunov"

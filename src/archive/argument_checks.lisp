@@ -57,15 +57,15 @@
         ((archive-head-p part '%derivative) (archive-strange-derivative part moving))
         ((archive-head-p part '%sum '%product '%lsum)
          "has no definite number of terms; give whole numbers as its limits, or a function f(x)")
-        ((member 'array (cdar part))
-         (and (some (lambda (x) (archive-occurs-p x (cons '(mlist) (cdr part)))) moving)
-              "is a name with a subscript, and constant; a function is written with ( )"))
-        ((and (member (caar part) moving) (cdr part))
+        ((and (member (caar part) moving) (cdr part) (not (member 'array (cdar part))))
          (format nil "has no place here: write ~a for the coordinate and 'diff(~:*~a,t) for its ~
                       velocity"
                  (core-spelling (caar part))))
         ((archive-meant-function part)
-         (format nil "is no function of Maxima; ~a?" (archive-meant-text part)))))
+         (format nil "is no function of Maxima; ~a?" (archive-meant-text part)))
+        ((member 'array (cdar part))
+         (and (some (lambda (x) (archive-occurs-p x (cons '(mlist) (cdr part)))) moving)
+              "is a name with a subscript, and constant; a function is written with ( )"))))
 
 ;; 'diff(q,t) is a velocity, that of a formula is none: what moves in it would be taken as constant
 

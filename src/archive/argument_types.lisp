@@ -168,10 +168,14 @@ subscripts, and a formula may stand for a law of its own.")
                     [..] in Equilibria, or name one solution, [x = .., ..]")))
 
 (defun archive-as-solution (value)
-  "[] where a function finds all of them: it refuses it else."
   (cond ((archive-items value) (archive-as-movement value))
-        ((archive-list-p value) value)
+        ((and (archive-list-p value) (archive-may-be-emptied-p "solution")) value)
         (t (archive-unfit))))
+
+(defun archive-may-be-emptied-p (option)
+  "Whether OPTION = [] sets aside what the archive says, in the function that is called."
+  (let ((public (gethash *core-function* *core-publics*)))
+    (and public (member option (core-public-emptied public) :test #'string=))))
 
 (defun archive-formula-inside (value)
   (unless (archive-formula-p value)

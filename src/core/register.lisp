@@ -16,6 +16,7 @@
   trailing   ; quantities that may follow a system: FirstApproximation(system, solution)
   options    ; names of the options besides the common ones
   kinds      ; kinds of archive the dialog may ask for
+  emptied    ; options that may be [], which sets aside what the archive says
   numerical) ; t where `values', `start' and `time' count
 
 (defstruct (core-rule (:conc-name rule-))
@@ -25,11 +26,11 @@
   later  ; the quantity that this one gives when it is asked
   act)   ; t for what a call does at its end
 
-(defun core-public (name &key forms trailing options kinds numerical)
+(defun core-public (name &key forms trailing options kinds numerical emptied)
   "States a public function. FORMS of calls on expressions; TRAILING arguments after a system."
   (setf (gethash name *core-publics*)
         (make-core-public :name name :forms forms :trailing trailing :options options :kinds kinds
-                          :numerical numerical)))
+                          :numerical numerical :emptied emptied)))
 
 ;;; Options
 
