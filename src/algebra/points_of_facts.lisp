@@ -244,17 +244,18 @@ now and then; else OPEN."
   "A search with points at which FACTS hold, or nil."
   (let ((search (make-algebra-search)))
     (when (catch 'no-form
-            (setf (search-conditions search)
-                  (loop for fact in facts
-                        collect (multiple-value-bind (e sign) (core-fact-difference fact)
-                                  (cons (algebra-read-form e search)
-                                        (algebra-sign-values sign)))))
+            (setf (search-conditions search) (algebra-read-conditions facts search))
             (<= (length (search-names search)) 20))
       (loop repeat *algebra-walks*
             do (let ((point (algebra-walk (search-conditions search)
                                           (algebra-random-point search) search)))
                  (when point (algebra-keep-point point search))))
       (and (search-points search) search))))
+
+(defun algebra-read-conditions (facts search)
+  (loop for fact in facts
+        collect (multiple-value-bind (e sign) (core-fact-difference fact)
+                  (cons (algebra-read-form e search) (algebra-sign-values sign)))))
 
 (defun algebra-random-point (search)
   (coerce (loop repeat (length (search-names search)) collect (algebra-search-number search))
@@ -313,3 +314,17 @@ now and then; else OPEN."
 (defun algebra-both-signs-seen-p (e facts)
   "Whether E is positive here and negative there, so that no sign of it can be proved."
   (and (subsetp '(1 -1) (algebra-seen-signs e facts)) t))
+
+(defun algebra-point-outside-p (facts others)
+  "Whether a point was seen at which FACTS hold, and of each of OTHERS, lists of facts, one fails."
+  (let* ((search (algebra-search-under facts))
+         (others (and search (catch 'no-form
+                               (loop for other in others
+                                     collect (algebra-read-conditions other search))))))
+    (and others
+         (some (lambda (point)
+                 (let ((place (algebra-place point)))
+                   (every (lambda (other)
+                            (notevery (lambda (c) (algebra-condition-holds-p c place)) other))
+                          others)))
+               (search-points search)))))

@@ -5,7 +5,8 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "algebra/sign" "algebra/size" "analysis/known_conditions"))
+  (core-require "algebra/points_of_facts" "algebra/sign" "algebra/size"
+                "analysis/known_conditions"))
 
 (defmacro analysis-where (conditions &body body)
   "The value of BODY where CONDITIONS, a list of Maxima's, hold too."
@@ -48,6 +49,13 @@
   (analysis-where conditions
     (every (lambda (c) (or (member c (cdr conditions) :test #'alike1) (analysis-surely-p c)))
            (cdr others))))
+
+(defun $analysis_seen_outside (conditions others)
+  "Whether a point was seen at which CONDITIONS hold and none of OTHERS, lists of them."
+  (analysis-where conditions
+    (algebra-point-outside-p (core-facts)
+                             (mapcar (lambda (other) (core-plain-relations (cdr other)))
+                                     (cdr others)))))
 
 (defun analysis-surely-p (c)
   (or ($analysis_known c)

@@ -14,8 +14,9 @@
 
 (core-public "RouthLyapunov"
   :forms '(("equations" "equations" "integrals" "variables"))
-  :options '("where" "unknowns" "multipliers" "within" "K" "function") :emptied '("solution")
+  :options '("where" "unknowns" "multipliers" "within" "K" "function")
   :kinds (append *analysis-motions* (core-kinds-giving "known_integrals")))
+(core-emptied "RouthLyapunov" "solution")
 (core-rule "RouthLyapunov" (core-kinds-giving "known_integrals") "analysis/routh_lyapunov"
   "analysis_routh_lyapunov"
   "state_equations" "integrals_on_level" "variables" "special_cases_sought"

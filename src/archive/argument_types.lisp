@@ -174,8 +174,7 @@ subscripts, and a formula may stand for a law of its own.")
 
 (defun archive-may-be-emptied-p (option)
   "Whether OPTION = [] sets aside what the archive says, in the function that is called."
-  (let ((public (gethash *core-function* *core-publics*)))
-    (and public (member option (core-public-emptied public) :test #'string=))))
+  (member option (gethash *core-function* *core-emptied*) :test #'string=))
 
 (defun archive-formula-inside (value)
   (unless (archive-formula-p value)

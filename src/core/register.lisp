@@ -16,7 +16,6 @@
   trailing   ; quantities that may follow a system: FirstApproximation(system, solution)
   options    ; names of the options besides the common ones
   kinds      ; kinds of archive the dialog may ask for
-  emptied    ; options that may be [], which sets aside what the archive says
   numerical) ; t where `values', `start' and `time' count
 
 (defstruct (core-rule (:conc-name rule-))
@@ -26,11 +25,18 @@
   later  ; the quantity that this one gives when it is asked
   act)   ; t for what a call does at its end
 
-(defun core-public (name &key forms trailing options kinds numerical emptied)
+(defun core-public (name &key forms trailing options kinds numerical)
   "States a public function. FORMS of calls on expressions; TRAILING arguments after a system."
   (setf (gethash name *core-publics*)
         (make-core-public :name name :forms forms :trailing trailing :options options :kinds kinds
-                          :numerical numerical :emptied emptied)))
+                          :numerical numerical)))
+
+(defvar *core-emptied* (make-hash-table :test #'equal) "Name of a public function -> options.")
+
+(defun core-emptied (name &rest options)
+  "States that each of OPTIONS may be [] in the public function NAME: what the archive says of it is
+set aside."
+  (setf (gethash name *core-emptied*) options))
 
 ;;; Options
 
