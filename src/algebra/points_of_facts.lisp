@@ -240,17 +240,32 @@ now and then; else OPEN."
     (setf (search-points search)
           (cons point (subseq others 0 (min (length others) (1- *algebra-kept-points*)))))))
 
+(defvar *algebra-last-search* '(nil nil . nil) "The table, the facts and the search of last time.")
+
 (defun algebra-search-of (facts)
   "A search with points at which FACTS hold, or nil."
   (let ((search (make-algebra-search)))
     (when (catch 'no-form
             (setf (search-conditions search) (algebra-read-conditions facts search))
             (<= (length (search-names search)) 20))
-      (loop repeat *algebra-walks*
+      (loop with starts = (algebra-points-of-last-time search)
+            repeat *algebra-walks*
             do (let ((point (algebra-walk (search-conditions search)
-                                          (algebra-random-point search) search)))
+                                          (or (pop starts) (algebra-random-point search)) search)))
                  (when point (algebra-keep-point point search))))
       (and (search-points search) search))))
+
+(defun algebra-points-of-last-time (search)
+  "Half of the walks may start at points of the facts of last time, which are often much the same."
+  (let ((last (cddr *algebra-last-search*)))
+    (when last
+      (loop for point in (search-points last)
+            repeat (floor *algebra-walks* 2)
+            collect (map 'simple-vector
+                         (lambda (name)
+                           (let ((place (position name (search-names last) :test #'eq)))
+                             (if place (svref point place) (algebra-search-number search))))
+                         (search-names search))))))
 
 (defun algebra-read-conditions (facts search)
   (loop for fact in facts
@@ -263,8 +278,6 @@ now and then; else OPEN."
 
 (defparameter *algebra-kept-searches* 1500 "For how many lists of facts searches are kept.")
 (defvar *algebra-searches* (make-hash-table :test 'equal) "Searches by lists of facts.")
-
-(defvar *algebra-last-search* '(nil nil . nil) "The table, the facts and the search of last time.")
 
 (defun algebra-search-under (facts)
   "The search for FACTS, nil where it has no points."
