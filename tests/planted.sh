@@ -20,7 +20,7 @@ normal_forms 150 11|src/analysis/normal_form.lisp|(cons number 2) beta|(cons num
 normal_forms 150 11|src/analysis/neutral_double.mac|algebra_inverse_times(J, -M|algebra_inverse_times(J, M
 leaf_coordinates 40 3|src/analysis/leaf_coordinates.mac|analysis_series_about(H, x, point, 4)|analysis_series_about(H, x, point, 3)
 letters 300 5|src/analysis/real_formulas.mac|'unknown then analysis_sign_by_norm(e)|'unknown then 'neg
-covered 200 3|src/analysis/covered_cases.mac|if u # first(pair) then sign: -sign|if u # first(pair) then sign: sign
+covered 200 3|src/analysis/covered_cases.mac|if known = 'neg then sign: -sign|if known = 'neg then sign: sign
 covered 200 3|src/analysis/covered_cases.mac|and forms_vanishes(analysis_gap(c) + analysis_gap(d))|and is(op(c) = op(d))
 borders 40 3|src/analysis/motion_values.mac|lhs(eq) = analysis_put_where(where, rhs(eq))|eq
 stabilizable 100 5|src/analysis/stabilization.mac|-analysis_gap(d)|-analysis_difference(d)
