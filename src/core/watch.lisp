@@ -198,9 +198,13 @@ its deadline counts too."
     (values value stop)))
 
 (defun core-within (time function)
-  "As core-timed: FUNCTION has TIME seconds, or from 1 down that share of the time left."
+  "As core-timed: FUNCTION has TIME seconds, or from 1 down that share of the time left, which is
+not less than two seconds where these are no more than half: a share of a share of a share would
+end what takes a moment on a busy machine."
   (let ((left (core-seconds-left)))
-    (core-timed-share (cond ((> time 1) time) (left (* time left))) function)))
+    (core-timed-share (cond ((> time 1) time)
+                            (left (max (* time left) (min 2 (/ left 2)))))
+                      function)))
 
 (defun core-within-at-most (seconds share function)
   "The same with this SHARE of the time left, and never more than so many SECONDS of work."
