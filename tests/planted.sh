@@ -22,6 +22,8 @@ leaf_coordinates 40 3|src/analysis/leaf_coordinates.mac|analysis_series_about(H,
 letters 300 5|src/analysis/real_formulas.mac|'unknown then analysis_sign_by_norm(e)|'unknown then 'neg
 covered 200 3|src/analysis/covered_cases.mac|if known = 'neg then sign: -sign|if known = 'neg then sign: sign
 covered 200 3|src/analysis/covered_cases.mac|and forms_vanishes(analysis_gap(c) + analysis_gap(d))|and is(op(c) = op(d))
+damped 60 3|src/analysis/stability_by_energy.mac|['nz, 'neg, 'zero\])|['nz, 'neg, 'zero, 'unknown])
+damped 60 3|src/analysis/lyapunov_test.mac|\[append(analysis_slopes_of(rate, x), zeros), X, x\]|[append(x, zeros), X, x]
 positions 60 3|src/analysis/singular_coordinates.mac|and analysis_nothing_moves(eqs, q, special, line, n) then seen: false|and analysis_nothing_moves(eqs, q, special, line, n) then true
 borders 40 3|src/analysis/motion_values.mac|lhs(eq) = analysis_put_where(where, rhs(eq))|eq
 stabilizable 100 5|src/analysis/stabilization.mac|-analysis_gap(d)|-analysis_difference(d)
