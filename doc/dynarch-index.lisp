@@ -1,5 +1,5 @@
 ;;; SPDX-License-Identifier: GPL-2.0-or-later
-;;; Made by tools/doc; checksum of doc/*.texi: 4208634246 145373
+;;; Made by tools/doc; checksum of doc/*.texi: 443132973 145703
 (in-package :cl-info)
 (let (
 (deffn-defvr-pairs (quote (
@@ -60,16 +60,16 @@
 ("Stability" . ("dynarch.info" 94884 6228 "Definitions for Analysis"))
 ("LyapunovTest" . ("dynarch.info" 101113 3116 "Definitions for Analysis"))
 ("SecondVariation" . ("dynarch.info" 104230 976 "Definitions for Analysis"))
-("RouthLyapunov" . ("dynarch.info" 105207 6013 "Definitions for Analysis"))
-("EliminateMultipliers" . ("dynarch.info" 111221 1741 "Definitions for Analysis"))
-("LinearIntegrals" . ("dynarch.info" 112963 1127 "Definitions for Analysis"))
-("QuadraticIntegrals" . ("dynarch.info" 114091 815 "Definitions for Analysis"))
-("PolynomialIntegrals" . ("dynarch.info" 114907 2023 "Definitions for Analysis"))
-("Simulate" . ("dynarch.info" 117197 7363 "Definitions for Numerics"))
-("ErrorAgainstTime" . ("dynarch.info" 124561 3906 "Definitions for Numerics"))
-("ReferenceSolution" . ("dynarch.info" 128468 1962 "Definitions for Numerics"))
-("RateProgram" . ("dynarch.info" 130431 4717 "Definitions for Numerics"))
-("PhasePortrait" . ("dynarch.info" 135149 4013 "Definitions for Numerics"))
+("RouthLyapunov" . ("dynarch.info" 105207 6210 "Definitions for Analysis"))
+("EliminateMultipliers" . ("dynarch.info" 111418 1741 "Definitions for Analysis"))
+("LinearIntegrals" . ("dynarch.info" 113160 1127 "Definitions for Analysis"))
+("QuadraticIntegrals" . ("dynarch.info" 114288 815 "Definitions for Analysis"))
+("PolynomialIntegrals" . ("dynarch.info" 115104 2023 "Definitions for Analysis"))
+("Simulate" . ("dynarch.info" 117394 7363 "Definitions for Numerics"))
+("ErrorAgainstTime" . ("dynarch.info" 124758 3906 "Definitions for Numerics"))
+("ReferenceSolution" . ("dynarch.info" 128665 1962 "Definitions for Numerics"))
+("RateProgram" . ("dynarch.info" 130628 4717 "Definitions for Numerics"))
+("PhasePortrait" . ("dynarch.info" 135346 4013 "Definitions for Numerics"))
 )))
 (section-pairs (quote (
 ("Introduction to LinModel, Circuits and Analysis" . ("dynarch.info" 844 930))
@@ -78,8 +78,8 @@
 ("Definitions for velocities" . ("dynarch.info" 6748 2005))
 ("Definitions for LinModel" . ("dynarch.info" 8887 30564))
 ("Definitions for Circuits" . ("dynarch.info" 39583 24751))
-("Definitions for Analysis" . ("dynarch.info" 64466 52464))
-("Definitions for Numerics" . ("dynarch.info" 117053 22109))
-("Systems by name" . ("dynarch.info" 139288 9007))
+("Definitions for Analysis" . ("dynarch.info" 64466 52661))
+("Definitions for Numerics" . ("dynarch.info" 117250 22109))
+("Systems by name" . ("dynarch.info" 139485 9160))
 ))))
 (load-info-hashtables (maxima::maxima-load-pathname-directory) deffn-defvr-pairs section-pairs))

@@ -25,6 +25,8 @@ covered 200 3|src/analysis/covered_cases.mac|and forms_vanishes(analysis_gap(c) 
 damped 60 3|src/analysis/stability_by_energy.mac|['nz, 'neg, 'zero\])|['nz, 'neg, 'zero, 'unknown])
 damped 60 3|src/analysis/lyapunov_test.mac|\[append(analysis_slopes_of(rate, x), zeros), X, x\]|[append(x, zeros), X, x]
 positions 60 3|src/analysis/singular_coordinates.mac|and analysis_nothing_moves(eqs, q, special, line, n) then seen: false|and analysis_nothing_moves(eqs, q, special, line, n) then true
+pencils 300 7|src/analysis/paired_blocks.mac|\[\[-b, 2\*a\], -direction(at_a)|[[-b, 2*a], direction(at_a)
+pencils 300 7|src/analysis/paired_blocks.mac|rest(corners)))),$|[]))),
 borders 40 3|src/analysis/motion_values.mac|lhs(eq) = analysis_put_where(where, rhs(eq))|eq
 stabilizable 100 5|src/analysis/stabilization.mac|-analysis_gap(d)|-analysis_difference(d)
 reasons 300 5|src/circuits/tree.mac|      circuits_structure_cuts(structure),$|      circuits_structure_loops(structure),

@@ -7,7 +7,7 @@
 (in-package :maxima)
 
 (eval-when (:compile-toplevel :load-toplevel :execute)
-  (core-require "core/born_symbols"))
+  (core-require "core/born_symbols" "core/mended"))
 
 (defvar *core-clean* nil "True in the clean session.")
 (defvar *core-kept-values* nil
@@ -251,7 +251,7 @@ Lisp."
   "Calls FUNCTION while no symbol has a property or function that the user gave it."
   (let* ((touched (core-touched-symbols operators))
          (saved (mapcar (lambda (s) (cons s (symbol-plist s))) touched))
-         (functions (append (core-replaced-functions)
+         (functions (append *core-mended-functions* (core-replaced-functions)
                             (mapcar #'list (remove-if-not #'core-callable-p touched)))))
     (unwind-protect
          (progn (dolist (s touched) (core-merge-properties s (core-clean-properties s)))
