@@ -7,11 +7,11 @@
 
 (in-package :maxima)
 
-(defvar *core-mended-functions*
-  (list (let ((maximas (symbol-function 'eztestdivide)))
-          (cons 'eztestdivide
-                (lambda (x y)
-                  (if (or (pcoefp x) (pcoefp y) (eq (p-var x) (p-var y)))
-                      (funcall maximas x y)
-                      (ignore-rat-err (pquotient x y)))))))
+(defun core-tested-quotient (x y)
+  "x/y, or nil where y does not divide x."
+  (when (or (pcoefp x) (pcoefp y) (not (eq (p-var x) (p-var y)))
+            (ignore-rat-err (pquotient (car (last x)) (car (last y)))))
+    (ignore-rat-err (pquotient x y))))
+
+(defvar *core-mended-functions* (list (cons 'eztestdivide #'core-tested-quotient))
   "(symbol . definition), ..")

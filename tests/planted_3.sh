@@ -1,0 +1,7 @@
+#!/bin/sh
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The third, seventh, .. fault that an adversary must find: see tests/planted_faults.
+
+here=$(CDPATH= cd -- "$(dirname -- "$0")" && pwd -P)
+part=3
+. "$here/planted_faults"
