@@ -21,22 +21,32 @@
   work    ; the same of the processor: what is found so does not depend on what else runs
   began)
 
+(defun core-work-time ()
+  "Internal time of the processor; where the Lisp has none (GCL's stands still), of the wall."
+  #+sbcl (get-internal-run-time) #-sbcl (get-internal-real-time))
+
 (defun core-new-deadline (seconds &optional seconds-of-work)
   "A deadline SECONDS from now, or after so many SECONDS-OF-WORK of the processor; nil is none."
   (flet ((after (now seconds)
            (and seconds (+ now (ceiling (* seconds internal-time-units-per-second))))))
     (let ((now (get-internal-real-time)))
       (make-core-deadline :began now :at (after now seconds)
-                          :work (after (get-internal-run-time) seconds-of-work)))))
+                          :work (after (core-work-time) seconds-of-work)))))
 
 (defun core-seconds-since (time)
   (/ (- (get-internal-real-time) time) internal-time-units-per-second))
 
 (defun core-seconds-left ()
-  "Seconds until the first of the deadlines, or nil where there is none."
-  (let ((times (remove nil (mapcar #'core-deadline-at *core-deadlines*))))
-    (and times
-         (max 0 (- (core-seconds-since (reduce #'min times)))))))
+  "Seconds until the first of the deadlines, on the wall or of work, or nil where there is none."
+  (flet ((left (times now)
+           (let ((times (remove nil times)))
+             (and times (list (max 0 (/ (- (reduce #'min times) now)
+                                        internal-time-units-per-second)))))))
+    (let ((seconds (append (left (mapcar #'core-deadline-at *core-deadlines*)
+                                 (get-internal-real-time))
+                           (left (mapcar #'core-deadline-work *core-deadlines*)
+                                 (core-work-time)))))
+      (and seconds (reduce #'min seconds)))))
 
 (defun core-passed-deadline ()
   "The outermost deadline that has passed, or nil."
@@ -46,14 +56,14 @@
   "Negative while it has not passed."
   (flet ((late (now time) (if time (/ (- now time) internal-time-units-per-second) -1)))
     (max (late (get-internal-real-time) (core-deadline-at deadline))
-         (late (get-internal-run-time) (core-deadline-work deadline)))))
+         (late (core-work-time) (core-deadline-work deadline)))))
 
-(defun core-postpone (ticks)
-  "All deadlines come TICKS later, as if their work had begun later."
+(defun core-postpone (ticks work)
+  "All deadlines come TICKS later, or so many of WORK, as if what they are for had begun later."
   (dolist (deadline *core-deadlines*)
     (incf (core-deadline-began deadline) ticks)
     (when (core-deadline-at deadline) (incf (core-deadline-at deadline) ticks))
-    (when (core-deadline-work deadline) (incf (core-deadline-work deadline) ticks))))
+    (when (core-deadline-work deadline) (incf (core-deadline-work deadline) work))))
 
 (defun core-clock ()
   "Seconds of the clock on the wall, to a microsecond where the Lisp has that; internal real time
@@ -69,10 +79,10 @@ may tick in 4 ms, too coarse for sums of what is short."
 such call counts, or deadlines would come later by their depth."
   (if *core-busy*
       (funcall function)
-      (let ((began (get-internal-real-time)) (clock (core-clock)))
+      (let ((began (get-internal-real-time)) (work (core-work-time)) (clock (core-clock)))
         (unwind-protect (let ((*core-busy* t)) (funcall function))
           (incf *core-uncounted-seconds* (- (core-clock) clock))
-          (core-postpone (- (get-internal-real-time) began))))))
+          (core-postpone (- (get-internal-real-time) began) (- (core-work-time) work))))))
 
 (setq *core-loading* #'core-unhurried)
 
@@ -197,19 +207,26 @@ its deadline counts too."
     (when stop (incf *core-shares-ended*))
     (values value stop)))
 
-(defun core-within (time function)
-  "As core-timed: FUNCTION has TIME seconds, or from 1 down that share of the time left, which is
-not less than two seconds where these are no more than half: a share of a share of a share would
-end what takes a moment on a busy machine."
-  (let ((left (core-seconds-left)))
-    (core-timed-share (cond ((> time 1) time)
-                            (left (max (* time left) (min 2 (/ left 2)))))
-                      function)))
+(defparameter *core-busy-factor* 8
+  "How many times its share of work what has a share may take on the clock on the wall.")
 
-(defun core-within-at-most (seconds share function)
-  "The same with this SHARE of the time left, and never more than so many SECONDS of work."
+(defun core-share (time)
+  "Seconds of work: TIME, or from 1 down that share of the time left, which is not less than two
+seconds where these are no more than half; nil where there is no limit."
   (let ((left (core-seconds-left)))
-    (core-timed-share (and left (* share left)) function seconds)))
+    (cond ((> time 1) time)
+          (left (max (* time left) (min 2 (/ left 2)))))))
+
+(defun core-within-at-most (seconds time function)
+  "As core-timed: FUNCTION has TIME seconds, or from 1 down that share of the time left, and never
+more than SECONDS, nil for as many as it likes. These are seconds of the processor, for what is
+found must not depend on what else runs; on the wall, where others are waited for, more."
+  (let* ((share (core-share time)) (work (remove nil (list seconds share))))
+    (core-timed-share (and share (* *core-busy-factor* share)) function
+                      (and work (reduce #'min work)))))
+
+(defun core-within (time function)
+  (core-within-at-most nil time function))
 
 (defun core-time (e)
   "E as a positive number."
@@ -218,14 +235,13 @@ end what takes a moment on a busy machine."
         (t (core-error "a time or a share of it was expected, found ~a" (core-words (list e))))))
 
 (defmspec $core_within (form)
-  ;; core_within(time, e): [value of e], or [] when the time is up. From 1 down it is a share of
-  ;; the time that the call has left. Errors are not caught.
+  ;; core_within(time, e): [value of e], or [] when the time of work is up. From 1 down it is a
+  ;; share of the time that the call has left. Errors are not caught.
   (destructuring-bind (time e) (cdr form)
     (core-in-time #'core-within (core-time (meval time)) (lambda () (meval e)))))
 
 (defmspec $core_within_work (form)
-  ;; core_within_work(seconds, e): the same with seconds of the processor, a tenth of the time left
-  ;; at most.
+  ;; core_within_work(seconds, e): the same, a tenth of the time left at most.
   (destructuring-bind (seconds e) (cdr form)
     (core-in-time #'core-within-at-most (core-time (meval seconds)) 1/10 (lambda () (meval e)))))
 
