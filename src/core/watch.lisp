@@ -210,20 +210,27 @@ its deadline counts too."
 (defparameter *core-busy-factor* 8
   "How many times its share of work what has a share may take on the clock on the wall.")
 
-(defun core-share (time)
-  "Seconds of work: TIME, or from 1 down that share of the time left, which is not less than two
-seconds where these are no more than half; nil where there is no limit."
-  (let ((left (core-seconds-left)))
-    (cond ((> time 1) time)
-          (left (max (* time left) (min 2 (/ left 2)))))))
+(defun core-share (time left)
+  "Seconds: TIME, or from 1 down that share of the time LEFT, which is not less than two seconds
+where these are no more than half; nil where there is no limit."
+  (cond ((> time 1) time)
+        (left (max (* time left) (min 2 (/ left 2))))))
 
 (defun core-within-at-most (seconds time function)
   "As core-timed: FUNCTION has TIME seconds, or from 1 down that share of the time left, and never
 more than SECONDS, nil for as many as it likes. These are seconds of the processor, for what is
-found must not depend on what else runs; on the wall, where others are waited for, more."
-  (let* ((share (core-share time)) (work (remove nil (list seconds share))))
-    (core-timed-share (and share (* *core-busy-factor* share)) function
+found must not depend on what else runs; on the wall they may be more, but leave half of what
+others have."
+  (let* ((left (core-seconds-left)) (share (core-share time left))
+         (work (remove nil (list seconds share))))
+    (core-timed-share (and share (min (* *core-busy-factor* share)
+                                      (if left (/ (+ share left) 2) (* *core-busy-factor* share))))
+                      function
                       (and work (reduce #'min work)))))
+
+(defun core-within-on-the-wall (time function)
+  "As core-within, TIME being one of the clock on the wall: for what must be kept in time."
+  (core-timed-share (core-share time (core-seconds-left)) function))
 
 (defun core-within (time function)
   (core-within-at-most nil time function))

@@ -172,7 +172,8 @@ steps; for others a part of an observer, or nil."
 (defparameter *numerics-share-of-time* 9/10
   "Of the time that a call has left, so that the rows of a run that takes longer can be kept.")
 
-(defun numerics-within-share (function) (core-within *numerics-share-of-time* function))
+(defun numerics-within-share (function)
+  (core-within-on-the-wall *numerics-share-of-time* function))
 
 (defun numerics-carry-out (run &optional (within #'numerics-within-share))
   "Makes the RUN; two values: the sentence of the stop where its time was up or the person

@@ -49,7 +49,8 @@ impulse is lost; nil where there is nothing to do."
 for is a part."
   (core-progress "making a reference")
   (multiple-value-bind (reference stop)
-      (core-within *numerics-share-of-reference* (lambda () (numerics-reference-of-trial trial)))
+      (core-within-on-the-wall *numerics-share-of-reference*
+                               (lambda () (numerics-reference-of-trial trial)))
     (when stop (core-report "partial" t))
     (unless reference
       (setq reference (make-numerics-reference :method "no reference: its time was up")))
