@@ -36,17 +36,18 @@
 (defun core-seconds-since (time)
   (/ (- (get-internal-real-time) time) internal-time-units-per-second))
 
+(defun core-least (&rest numbers)
+  "The least of those that are not nil, or nil."
+  (let ((there (remove nil numbers)))
+    (and there (reduce #'min there))))
+
 (defun core-seconds-left ()
   "Seconds until the first of the deadlines, on the wall or of work, or nil where there is none."
-  (flet ((left (times now)
-           (let ((times (remove nil times)))
-             (and times (list (max 0 (/ (- (reduce #'min times) now)
-                                        internal-time-units-per-second)))))))
-    (let ((seconds (append (left (mapcar #'core-deadline-at *core-deadlines*)
-                                 (get-internal-real-time))
-                           (left (mapcar #'core-deadline-work *core-deadlines*)
-                                 (core-work-time)))))
-      (and seconds (reduce #'min seconds)))))
+  (flet ((left (clock now)
+           (let ((first (apply #'core-least (mapcar clock *core-deadlines*))))
+             (and first (max 0 (/ (- first now) internal-time-units-per-second))))))
+    (core-least (left #'core-deadline-at (get-internal-real-time))
+                (left #'core-deadline-work (core-work-time)))))
 
 (defun core-passed-deadline ()
   "The outermost deadline that has passed, or nil."
@@ -221,12 +222,11 @@ where these are no more than half; nil where there is no limit."
 more than SECONDS, nil for as many as it likes. These are seconds of the processor, for what is
 found must not depend on what else runs; on the wall they may be more, but leave half of what
 others have."
-  (let* ((left (core-seconds-left)) (share (core-share time left))
-         (work (remove nil (list seconds share))))
-    (core-timed-share (and share (min (* *core-busy-factor* share)
-                                      (if left (/ (+ share left) 2) (* *core-busy-factor* share))))
+  (let* ((left (core-seconds-left)) (share (core-share time left)))
+    (core-timed-share (core-least (and share (* *core-busy-factor* share))
+                                  (and share left (/ (+ share left) 2)))
                       function
-                      (and work (reduce #'min work)))))
+                      (core-least seconds share))))
 
 (defun core-within-on-the-wall (time function)
   "As core-within, TIME being one of the clock on the wall: for what must be kept in time."
