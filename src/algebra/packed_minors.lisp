@@ -127,10 +127,12 @@ are not single terms or their monomials are too long."
 ;;; Back to Maxima's recursive form.
 
 (defun algebra-unpacked (p variables bits)
-  (let ((monomials (algebra-packed-monomials p)) (numbers (algebra-packed-numbers p)))
+  (let ((monomials (algebra-packed-monomials p)) (numbers (algebra-packed-numbers p))
+        (mask (1- (ash 1 bits))))
+    (declare (type (unsigned-byte 60) mask))
     (labels ((exponent (place shift)
-               (declare (fixnum place shift))
-               (logand (ash (aref monomials place) (- shift)) (1- (ash 1 bits))))
+               (declare (fixnum place) (type (integer 0 60) shift))
+               (logand mask (ash (the (unsigned-byte 60) (aref monomials place)) (- shift))))
              (between (from to variables shift)
                "The terms from FROM to TO, which agree in all higher variables."
                (cond ((null variables) (svref numbers from))
