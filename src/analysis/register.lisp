@@ -173,13 +173,15 @@
 
 (core-rule-same-as "polynomial" *analysis-kinds* "CharacteristicPolynomial")
 
-(loop for (name function) in '(("HurwitzMinors" "analysis_hurwitz_minors")
-                               ("RouthHurwitz" "analysis_routh_hurwitz")
-                               ("LienardChipart" "analysis_lienard_chipart"))
+(loop for (name part function)
+        in '(("HurwitzMinors" "criteria" "analysis_hurwitz_minors")
+             ("RouthHurwitz" "criteria_where_real" "analysis_routh_hurwitz_where_real")
+             ("LienardChipart" "criteria_where_real" "analysis_lienard_chipart_where_real"))
       do (core-public name :forms '(("polynomial" "polynomial" "lambda")) :trailing '("solution")
                            :options (cons "lambda" *analysis-linear-options*)
                            :kinds *analysis-kinds*)
-         (core-rule name :any "analysis/criteria" function "polynomial" *analysis-lambda*))
+         (core-rule name :any (concatenate 'string "analysis/" part) function
+           "polynomial" *analysis-lambda*))
 
 (core-public "Stability"
   :forms '(("equations" "equations" "solution"))
@@ -265,8 +267,8 @@
   *analysis-lambda*)
 
 (core-public "RealNegativeRoots" :forms '(("polynomial" "polynomial" "u")))
-(core-rule "RealNegativeRoots" :any "analysis/criteria" "analysis_real_negative_roots"
-  "polynomial" "u")
+(core-rule "RealNegativeRoots" :any "analysis/criteria_where_real"
+  "analysis_real_negative_roots_where_real" "polynomial" "u")
 
 (loop for (name function) in '(("LeadingMinors" "analysis_leading_minors")
                                ("Signature" "analysis_signature"))
